@@ -10,8 +10,11 @@ use crate::commands::{
 use crate::commands::{Calibrate, Film, Listen};
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
+use clap::error::ContextKind;
 use clap::{Arg, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::error::Error as _;
 use std::ffi::OsString;
+use std::num::{ParseFloatError, ParseIntError};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -31,7 +34,7 @@ Exit status:
   4    a robot's experiment has halted and needs a person
   130  stopped by Ctrl-C or SIGTERM; finished work is kept
 
-With --format json, standard output holds exactly one JSON document: the result, or the problems
+With --format json, standard output holds exactly one JSON document: the result, or the problems \
 that prevented it. Only arguments that are not understood print none.";
 
 /// How likely does a tossed cylinder come to rest on heads, on tails or on its side?
@@ -94,11 +97,43 @@ fn with_negative_numbers(command: clap::Command) -> clap::Command {
         .mut_subcommands(with_negative_numbers)
 }
 
+/// The same error, in plain words where a value is no number or out of its range.
+fn in_plain_words(error: clap::Error) -> clap::Error {
+    let value = error.get(ContextKind::InvalidValue);
+    let (Some(expected), Some(value), Some(arg)) =
+        (expected(&error), value, error.get(ContextKind::InvalidArg))
+    else {
+        return error;
+    };
+    let message = format!(
+        "invalid value '{value}' for '{arg}': {expected}\n\nFor more information, try '--help'.\n"
+    );
+    clap::Error::raw(error.kind(), message)
+}
+
+/// What was expected in place of a value, if that is a number.
+fn expected(error: &clap::Error) -> Option<String> {
+    let source = error.source()?;
+    if source.is::<ParseFloatError>() {
+        return Some("expected a number".to_owned());
+    }
+    if source.is::<ParseIntError>() {
+        return Some("expected a whole number".to_owned());
+    }
+    let text = source.to_string();
+    let (_, range) = text.split_once(" is not in ")?;
+    Some(match range.split_once("..=") {
+        Some((least, most)) => format!("expected a whole number from {least} to {most}"),
+        None => format!("expected at least {}", range.trim_end_matches('.')),
+    })
+}
+
 impl Arguments {
     /// Reads the words of a command line.
     pub(crate) fn read(words: &[OsString]) -> Result<Self, clap::Error> {
         let mut command = with_negative_numbers(Self::command());
-        let matches = command.try_get_matches_from_mut(words)?;
+        let matches = command.try_get_matches_from_mut(words);
+        let matches = matches.map_err(in_plain_words)?;
         Self::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
     }
 
@@ -194,6 +229,72 @@ mod tests {
     }
 
     #[test]
+    fn what_is_no_number_is_told_in_plain_words() {
+        for (words, told) in [
+            (
+                "fair --threads 0",
+                "'0' for '--threads <N>': expected a whole number from 1 to 1024",
+            ),
+            (
+                "listen a.wav --seed 1e9",
+                "'1e9' for '--seed <SEED>': expected a whole number",
+            ),
+            ("aim --clumsy abc", "'abc' for '--clumsy"),
+            ("aim --clumsy abc", ": expected a number\n"),
+            (
+                "check a.toml --nodes 0",
+                "'0' for '--nodes <N>': expected a",
+            ),
+        ] {
+            let message = refused(&format!("coinmc {words}"));
+            assert!(message.contains(told), "{message}");
+            assert!(message.starts_with("error: invalid value"), "{message}");
+        }
+    }
+
+    /// Then it is wrapped at the width of any terminal, and but once.
+    #[test]
+    fn a_paragraph_below_a_help_is_one_line() {
+        let mut commands = vec![Arguments::command()];
+        while let Some(command) = commands.pop() {
+            commands.extend(command.get_subcommands().cloned());
+            let below = command.get_after_help().or(command.get_after_long_help());
+            let text = below.map(ToString::to_string).unwrap_or_default();
+            let lines: Vec<&str> = text.lines().collect();
+            for pair in lines.windows(2) {
+                let is_prose = |line: &str| !line.is_empty() && !line.starts_with(' ');
+                let is_title = pair[0].ends_with(':');
+                // a table
+                let is_cell = pair[0].contains("  ");
+                let is_wrapped = is_prose(pair[0]) && is_prose(pair[1]) && !is_title && !is_cell;
+                assert!(!is_wrapped, "{}: {pair:?}", command.get_name());
+            }
+        }
+    }
+
+    #[test]
+    fn a_shell_offers_the_names_of_fixed_lists() {
+        let mut command = Arguments::command();
+        command.build();
+        for (verb, option, name) in [
+            ("fair", "scene", "billiards"),
+            ("fair", "face", "side"),
+            ("ask", "material", "felt"),
+            ("ask", "launch", "rolled"),
+            ("validate", "only", "kerrich"),
+        ] {
+            let verb = command.find_subcommand(verb).expect("a verb");
+            let mut options = verb.get_arguments();
+            let option = options.find(|arg| arg.get_long() == Some(option));
+            let offered = option.expect("an option").get_possible_values();
+            assert!(
+                offered.iter().any(|value| value.matches(name, false)),
+                "{name}"
+            );
+        }
+    }
+
+    #[test]
     fn a_negative_number_is_a_value_that_its_option_may_refuse() {
         let time = refused("coinmc run a.toml --max-time -5");
         assert!(
@@ -201,7 +302,10 @@ mod tests {
             "{time}"
         );
         let threads = refused("coinmc fair --threads -1");
-        assert!(threads.contains("-1 is not in 1..=1024"), "{threads}");
+        assert!(
+            threads.contains("expected a whole number from 1 to 1024"),
+            "{threads}"
+        );
         let words = ["coinmc", "ask", "--ratio", "-1"].map(OsString::from);
         assert!(Arguments::read(&words).is_ok());
         assert!(refused("coinmc run -1").contains("unexpected argument '-1'"));

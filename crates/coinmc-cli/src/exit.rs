@@ -2,6 +2,7 @@
 
 use crate::output::{self, Console, Format};
 use crate::terminal::Colors;
+use anyhow::anyhow;
 use coinmc::config::Diagnostics;
 use coinmc::run::RunError;
 use coinmc_atlas::AtlasError;
@@ -72,9 +73,11 @@ impl From<RunError> for Failure {
     /// A directory that holds something else and parts that do not match are bad input, like a bad config.
     fn from(error: RunError) -> Self {
         match error {
+            RunError::Several(errors) => several(errors.into_iter().map(Self::from)),
             RunError::NotARunDirectory { .. }
             | RunError::NoRun { .. }
             | RunError::OtherPlan { .. }
+            | RunError::ChangedConfig { .. }
             | RunError::OtherVersion { .. }
             | RunError::OtherPart { .. }
             | RunError::NewerFormat { .. }
@@ -87,6 +90,18 @@ impl From<RunError> for Failure {
             | RunError::Conflict { .. } => Self::Input(error.into()),
             _ => Self::Runtime(error.into()),
         }
+    }
+}
+
+/// Several failures as one: bad input if every one of them is.
+pub(crate) fn several(failures: impl Iterator<Item = Failure>) -> Failure {
+    let failures: Vec<Failure> = failures.collect();
+    let words: Vec<String> = failures.iter().map(Failure::message).collect();
+    let error = anyhow!("{}", words.join("\n"));
+    if failures.iter().all(|failure| failure.code() == BAD_INPUT) {
+        Failure::Input(error)
+    } else {
+        Failure::Runtime(error)
     }
 }
 
@@ -214,7 +229,7 @@ impl Failure {
                 output::note(&diagnostics.render(console.stderr().color));
                 let problems = diagnostics.problems().len();
                 output::note(&format!(
-                    "\n{problems} problem{} found, nothing was fitted",
+                    "\n{problems} problem{} found, nothing was done",
                     if problems == 1 { "" } else { "s" }
                 ));
             }

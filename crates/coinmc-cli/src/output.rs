@@ -110,8 +110,15 @@ pub(crate) fn print_with(
     let mut stdout = BufWriter::new(io::stdout().lock());
     match write(&mut stdout).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        result => result,
+        result => result.map_err(of_standard_output),
     }
+}
+
+/// An error that says what could not be written.
+#[allow(clippy::needless_pass_by_value)] // for `map_err`
+fn of_standard_output(error: io::Error) -> io::Error {
+    let message = format!("cannot write to standard output: {error}");
+    io::Error::new(error.kind(), message)
 }
 
 /// Writes a document to standard output.
@@ -122,4 +129,22 @@ pub(crate) fn print_json(document: &Value) -> io::Result<()> {
 /// Writes a line to standard error; a failure to do so cannot be reported anywhere.
 pub(crate) fn note(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{}", harmless(text));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_output_that_fails_is_named_and_a_closed_one_is_none() {
+        let fails = |kind: io::ErrorKind| print_with(|_| Err(kind.into()));
+        let told = fails(io::ErrorKind::StorageFull).expect_err("a full disk");
+        assert_eq!(told.kind(), io::ErrorKind::StorageFull);
+        let told = told.to_string();
+        assert!(
+            told.starts_with("cannot write to standard output: "),
+            "{told}"
+        );
+        assert!(fails(io::ErrorKind::BrokenPipe).is_ok());
+    }
 }

@@ -148,7 +148,7 @@ pub enum QuestionError {
     #[error("nothing of the launch is spread, so there is no spread to multiply")]
     NoSpread,
     /// The config refuses the spread of a clumsier hand.
-    #[error("with {factor} times the spread of the hand the config has problems:\n{problems}")]
+    #[error("with {factor:?} times the spread of the hand the config has problems:\n{problems}")]
     Clumsy {
         /// The factor.
         factor: f64,

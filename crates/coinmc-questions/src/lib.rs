@@ -57,7 +57,7 @@ pub use document::document;
 pub use error::QuestionError;
 pub use fair::{
     Curve, Fair, Finding, LEAST_TOSSES, Numerical, Question, Root, Round, Scanned, fair,
-    finer_settings,
+    finer_settings, natural_range,
 };
 pub use interval::Interval;
 pub use power::{Test, tosses_for_power};

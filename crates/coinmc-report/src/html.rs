@@ -14,6 +14,9 @@ const TOSS_SCRIPT: &str = include_str!("../web/dist/toss.js");
 const STYLE: &str = include_str!("../web/dist/style.css");
 const LICENCES: &str = include_str!("../web/dist/LICENCES.txt");
 
+/// How the element begins that holds a page's data.
+const DATA: &str = "<script type=\"application/json\" id=\"data\">";
+
 /// Which program a page needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Program {
@@ -48,7 +51,7 @@ pub(crate) fn document(title: &str, data: &Value, program: Program) -> String {
          <main id=\"page\"><noscript>This page draws its data with JavaScript, which is switched off here. It loads \
          nothing from a network.</noscript></main>\n\
          <footer><details><summary>Licences of the libraries in this page</summary><pre>{}</pre></details></footer>\n\
-         <script type=\"application/json\" id=\"data\">{}</script>\n\
+         {DATA}{}</script>\n\
          <script>{script}</script>\n</body>\n</html>\n",
         hash(script),
         hash(STYLE),
@@ -75,6 +78,23 @@ pub(crate) fn still(title: &str, body: &str) -> String {
         env!("CARGO_PKG_VERSION"),
         text(title),
     )
+}
+
+/// The hashes of the plans whose runs a page of [`report`](crate::report()) shows; none of other pages and texts.
+///
+/// # Example
+/// ```
+/// assert!(coinmc_report::plan_hashes("<!doctype html>").is_empty());
+/// ```
+pub fn plan_hashes(page: &str) -> Vec<String> {
+    let data = page.split_once(DATA).and_then(|(_, rest)| {
+        let (data, _) = rest.split_once("</script>")?;
+        serde_json::from_str::<Value>(data).ok()
+    });
+    let runs = data.as_ref().and_then(|data| data["runs"].as_array());
+    let hashes = runs.into_iter().flatten();
+    let hashes = hashes.filter_map(|run| run["plan_hash"].as_str());
+    hashes.map(str::to_owned).collect()
 }
 
 /// A page inside another one, such as a notebook: a frame that holds the whole document.

@@ -10,6 +10,7 @@
 //! * [`Run`] is a run to report: read from a run directory, or in memory.
 //! * [`report()`] makes the page of one or several runs.
 //! * [`tosses()`] makes the page of one or several tosses in three dimensions.
+//! * [`plan_hashes`] says of which runs a page is.
 //! * [`claims()`] makes the page of a validation, which holds no program.
 //! * [`Map`] is a map of basins: the face over two quantities of the launch. [`map()`] makes its page.
 //!
@@ -34,7 +35,7 @@ mod sweep;
 mod table;
 
 pub use claims::claims;
-pub use html::inner;
+pub use html::{inner, plan_hashes};
 pub use map::{MAX_PIXELS, Map, MapError};
 pub use page::{MAX_TOSSES, map, report, tosses};
 pub use quantity::{Quantity, UnknownQuantity};

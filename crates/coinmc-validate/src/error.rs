@@ -3,6 +3,7 @@
 use coinmc::config::{Diagnostics, OverrideError};
 use coinmc::run::RunError;
 use coinmc_questions::QuestionError;
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Why a validation has no result.
@@ -15,6 +16,17 @@ pub enum ValidateError {
         names: Vec<String>,
         /// All names that are known.
         known: String,
+    },
+    /// The directory that is to keep the tosses holds something else.
+    #[error(
+        "{} holds {found}, which is not of a validation. Choose a new or empty directory",
+        dir.display()
+    )]
+    OtherDirectory {
+        /// The directory.
+        dir: PathBuf,
+        /// What was found in it.
+        found: String,
     },
     /// It was stopped.
     #[error("stopped")]

@@ -7,7 +7,11 @@ use crate::tosser::Tosser;
 use crate::trend::LEVEL;
 use crate::{Size, ValidateError};
 use coinmc_questions::Workers;
+use std::fs;
 use std::path::Path;
+
+/// Directories in that of a validation: for the tosses of its claims and of its data sets.
+const PLACES: [&str; 2] = ["claims", "sets"];
 
 /// What to validate, and how.
 #[derive(Debug, Clone, Copy)]
@@ -99,6 +103,9 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 pub fn validate(options: &Options<'_>, workers: &Workers<'_>) -> Result<Validation, ValidateError> {
     let Options { size, seed, .. } = *options;
     check(options.only)?;
+    if let Some(out) = options.out {
+        check_directory(out)?;
+    }
     let wanted = |name: &str| options.only.is_empty() || options.only.iter().any(|n| n == name);
     let tosser = Tosser {
         seed,
@@ -128,6 +135,25 @@ pub fn validate(options: &Options<'_>, workers: &Workers<'_>) -> Result<Validati
         claims,
         sets,
     })
+}
+
+/// That a directory is absent, empty or that of a validation.
+fn check_directory(dir: &Path) -> Result<(), ValidateError> {
+    // what is absent can be made, and of what cannot be read the first run says why
+    let Ok(entries) = fs::read_dir(dir) else {
+        return Ok(());
+    };
+    let names = entries.flatten().map(|entry| entry.file_name());
+    let foreign = names
+        .filter(|name| !PLACES.iter().any(|place| name == place))
+        .min();
+    match foreign {
+        None => Ok(()),
+        Some(name) => Err(ValidateError::OtherDirectory {
+            dir: dir.to_owned(),
+            found: name.display().to_string(),
+        }),
+    }
 }
 
 /// That everything has these names, with the nearest name of each that nothing has.

@@ -94,3 +94,15 @@ fn a_name_that_nothing_has_is_told_before_any_toss() {
     );
     assert!(text.contains("arc-rule, arc-shift"), "{text}");
 }
+
+#[test]
+fn the_directory_of_something_else_is_refused_and_stays_as_it_is() {
+    let dir = tempfile::tempdir().expect("a directory");
+    std::fs::create_dir(dir.path().join("sets")).expect("a place of a validation");
+    assert!(found(&CLAIMS[..1], Some(dir.path()), 1, u64::MAX).is_ok());
+    std::fs::remove_dir_all(dir.path().join("claims")).expect("its tosses");
+    std::fs::write(dir.path().join("manifest.json"), "{}").expect("a file");
+    let refused = found(&CLAIMS[..1], Some(dir.path()), 1, u64::MAX).expect_err("another's");
+    assert!(refused.to_string().contains("manifest.json"), "{refused}");
+    assert!(!dir.path().join("claims").exists());
+}

@@ -37,7 +37,8 @@ pub(crate) struct AimAt {
     scene: SceneArgs,
 
     /// The face
-    #[arg(long, value_name = "FACE", value_parser = super::face, default_value = "side")]
+    #[arg(long, value_name = "FACE", value_parser = super::names::face(), default_value = "side")]
+    #[arg(hide_possible_values = true)]
     face: Face,
 
     /// A number of the launch and its values, as in `launch.height_m=0.1..2` or `…=0.1..2:15`; once

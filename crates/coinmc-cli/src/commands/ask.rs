@@ -1,5 +1,6 @@
 //! `coinmc ask`: an answer without a toss.
 
+use super::names;
 use super::quantity::Length;
 use super::question::{AnswerArgs, ask};
 use crate::exit::{Failure, Outcome};
@@ -38,11 +39,13 @@ pub(crate) struct Ask {
     thickness: Option<Length>,
 
     /// What it lands on
-    #[arg(long, value_name = "NAME", default_value = "laminate")]
+    #[arg(long, value_name = "NAME", default_value = "laminate", value_parser = names::materials())]
+    #[arg(hide_possible_values = true)]
     material: String,
 
     /// How it is let go
-    #[arg(long, value_name = "NAME", default_value = "hand")]
+    #[arg(long, value_name = "NAME", default_value = "hand", value_parser = names::launches())]
+    #[arg(hide_possible_values = true)]
     launch: String,
 
     /// Replace a number of the surface, as in `friction=0.2`; repeatable

@@ -16,7 +16,9 @@ mod film;
 #[cfg(feature = "film")]
 mod listen;
 mod merge;
+mod names;
 mod new_file;
+mod page;
 mod quantity;
 mod question;
 mod rare;

@@ -26,7 +26,8 @@ pub(super) struct SceneArgs {
     config: Option<PathBuf>,
 
     /// Everyday scene, see `coinmc fair --help` [default: table]
-    #[arg(long, value_name = "NAME", conflicts_with = "config")]
+    #[arg(long, value_name = "NAME", conflicts_with = "config", value_parser = super::names::scenes())]
+    #[arg(hide_possible_values = true)]
     scene: Option<String>,
 
     /// Replace or add a value of the config, as in `surface.friction=0.2`; repeatable

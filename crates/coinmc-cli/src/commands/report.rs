@@ -1,20 +1,16 @@
 //! `coinmc report`: runs as a page that opens anywhere.
 
-use super::new_file::must_end_in;
-use super::question::write_file;
-use crate::exit::{Failure, Outcome};
+use super::page::{Page, Replaceable};
+use crate::exit::{Failure, Outcome, several};
 use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::grouped;
 use crate::terminal::progress::Progress;
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::Args;
 use coinmc::run::RunError;
-use coinmc_recording::NewFile;
 use coinmc_report::{Run, Samples, report};
 use serde_json::json;
-use std::fs;
-use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -76,7 +72,12 @@ impl ReportOf {
                 "a page shows at most {MAX_TOSSES} tosses of a run"
             )));
         }
-        let page = Page::begin(&self.out, self.force)?;
+        let replaceable = if self.force {
+            Replaceable::AnyPage
+        } else {
+            Replaceable::Nothing
+        };
+        let page = Page::begin(&self.out, replaceable)?;
         let progress = Progress::new(*console.stderr(), true);
         let runs = self.open(&progress)?;
         let samples = Samples {
@@ -97,14 +98,10 @@ impl ReportOf {
                 Err(error) => failures.push(unreadable(error)),
             }
         }
-        match failures.len() {
-            0 => Ok(runs),
-            1 => Err(failures.remove(0)),
-            _ => {
-                let words: Vec<String> = failures.iter().map(Failure::message).collect();
-                Err(Failure::Input(anyhow!("{}", words.join("\n"))))
-            }
+        if failures.is_empty() {
+            return Ok(runs);
         }
+        Err(several(failures.into_iter()))
     }
 
     fn tell(&self, bytes: u64, console: &Console) -> Result<Outcome, Failure> {
@@ -137,117 +134,5 @@ pub(super) fn unreadable(error: RunError) -> Failure {
             dir.display()
         )),
         error => error.into(),
-    }
-}
-
-/// A page that appears when it is complete: a new file, or in place of an earlier page.
-pub(super) struct Page {
-    path: PathBuf,
-    file: NewFile,
-    replaces: bool,
-}
-
-impl Page {
-    /// Whether the name is that of a page, and of no file that is not to be replaced, as coinmc did not make it.
-    pub(super) fn check(path: &Path) -> Result<(), Failure> {
-        if path.exists() && !is_page(path) {
-            return Err(Failure::Input(anyhow!(
-                "{} is no page of coinmc and is not replaced: choose another name, or move it away",
-                path.display()
-            )));
-        }
-        must_end_in(path, "html")
-    }
-
-    /// Begins a page. What stands there is replaced only if `replace` and if coinmc made it.
-    pub(super) fn begin(path: &Path, replace: bool) -> Result<Self, Failure> {
-        let replaces = replace && path.exists();
-        if replaces {
-            Self::check(path)?;
-        }
-        must_end_in(path, "html")?;
-        let file = if replaces {
-            NewFile::begin(&beside(path))?
-        } else {
-            NewFile::begin(path)?
-        };
-        Ok(Self {
-            path: path.to_owned(),
-            file,
-            replaces,
-        })
-    }
-
-    /// Writes the page and gives it its name.
-    pub(super) fn write(self, text: &str) -> Result<(), Failure> {
-        write_file(self.file, text)?;
-        if self.replaces {
-            fs::rename(beside(&self.path), &self.path)
-                .with_context(|| format!("cannot replace {}", self.path.display()))
-                .map_err(Failure::Runtime)?;
-        }
-        Ok(())
-    }
-}
-
-/// Where a page is written that is to replace one.
-fn beside(path: &Path) -> PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".new");
-    path.with_file_name(name)
-}
-
-/// Whether a file begins as the pages of coinmc do.
-fn is_page(path: &Path) -> bool {
-    let mut start = Vec::new();
-    let read = fs::File::open(path).and_then(|file| file.take(2000).read_to_end(&mut start));
-    let text = String::from_utf8_lossy(&start);
-    read.is_ok() && text.starts_with("<!doctype html>") && text.contains("content=\"coinmc ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use coinmc::plan::StoppedBy;
-    use coinmc::results::{Results, Row};
-    use coinmc::run::{Report, Status};
-
-    fn page() -> String {
-        let config = "coin.ratio = 1\nengine.analytic.rule = 'arc'";
-        let plan = coinmc::config::parse("test", config, &[]).unwrap();
-        let row = Row::new(
-            &plan,
-            0,
-            coinmc_core::Tally::default(),
-            StoppedBy::ClosedForm,
-        );
-        let report_of = Report {
-            results: Results::new(&plan, vec![row].into()),
-            status: Status::Complete,
-            reused_chunks: 0,
-            tosses: 0,
-            tosses_planned: 0,
-        };
-        report(
-            &[Run::in_memory("a", plan, report_of)],
-            None,
-            &Samples::default(),
-        )
-        .unwrap()
-    }
-
-    #[test]
-    fn only_pages_are_replaced_and_only_on_demand() {
-        let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("a.html");
-        Page::begin(&path, false).unwrap().write(&page()).unwrap();
-        assert!(Page::begin(&path, false).is_err());
-        Page::begin(&path, true).unwrap().write(&page()).unwrap();
-        assert_eq!(fs::read_to_string(&path).unwrap(), page());
-        fs::write(&path, "my notes").unwrap();
-        assert!(Page::begin(&path, true).is_err());
-        assert!(Page::begin(&dir.path().join("a.txt"), false).is_err());
-        assert!(Page::check(&dir.path().join("a.txt")).is_err());
-        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
     }
 }

@@ -1,6 +1,7 @@
 //! `coinmc run`: from a config to probabilities.
 
-use super::report::Page;
+use super::new_file::must_end_in;
+use super::page::{Page, Replaceable};
 use crate::command_line::this_command;
 use crate::exit::{Failure, Outcome};
 use crate::interrupt;
@@ -8,7 +9,7 @@ use crate::output::{self, Console, FORMAT_VERSION, Format, ResultFormat};
 use crate::terminal::plot::Plotted;
 use crate::terminal::progress::{Progress, with_prefix};
 use crate::terminal::summary::{FAIR, markdown, summary};
-use crate::terminal::{compact, count, duration, grouped};
+use crate::terminal::{compact, count, duration, grouped, tosses};
 use crate::time_limit::{self, TimeLimit};
 use anyhow::Context;
 use clap::Args;
@@ -17,7 +18,7 @@ use coinmc::config::{self, Override};
 use coinmc::plan::{MAX_EVALUATIONS, Plan, StoppedBy};
 use coinmc::published::TABLE1_SOURCE;
 use coinmc::results::{FairRatio, Row, fair_ratios, write_csv};
-use coinmc::run::{Options, Part, Report, Status};
+use coinmc::run::{Options, Part, Report, Status, stored_plan};
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
 use std::ffi::OsString;
@@ -33,7 +34,7 @@ Examples:
   coinmc run toss.toml --format json > toss.json
   coinmc run toss.toml --report                     and make a page of it, see `coinmc report`
 
-The same command again goes on where the last one stopped, and reports a finished run at once.
+The same command again goes on where the last one stopped, and reports a finished run at once. \
 More tosses, a tighter target or more values at the end of the first list go on from there, too.";
 
 /// Toss what a config describes and report probabilities with intervals
@@ -93,9 +94,10 @@ impl Run {
         let plan = config::load(&self.config, &self.overrides)?;
         self.plot.check(&plan.axes).map_err(Failure::Input)?;
         let out = self.out.clone().unwrap_or_else(|| self.default_out(&plan));
-        if let Some(page) = self.report.as_ref().filter(|page| !page.is_empty()) {
-            let page = Path::new(page);
-            Page::check(page)?;
+        let page = self.page(&plan, &out);
+        if let Some((file, replaceable)) = &page {
+            replaceable.check(file)?;
+            must_end_in(file, "html")?;
         }
         let progress = Progress::of(&plan, *console.stderr(), self.quiet);
         if !self.quiet {
@@ -132,20 +134,27 @@ impl Run {
         } else {
             stopped
         };
-        if let Some(file) = &self.report {
-            let file = if file.is_empty() {
-                out.join("report.html")
-            } else {
-                PathBuf::from(file)
-            };
-            self.make_page(&file, &out)?;
+        if let Some((file, replaceable)) = page {
+            self.make_page(&file, replaceable, &out)?;
         }
         Ok(outcome)
     }
 
+    /// Where the page is to be, if one is asked for, and what it may replace there: in the run directory any page,
+    /// and else those of the run and of that from which it goes on.
+    fn page(&self, plan: &Plan, out: &Path) -> Option<(PathBuf, Replaceable)> {
+        let file = self.report.as_ref()?;
+        if file.is_empty() {
+            return Some((out.join("report.html"), Replaceable::AnyPage));
+        }
+        let earlier = stored_plan(out).map(|plan| plan.hash());
+        let hashes = [plan.hash()].into_iter().chain(earlier).collect();
+        Some((PathBuf::from(file), Replaceable::PageOf(hashes)))
+    }
+
     /// The page of the run, in place of that of an earlier call of the same command.
-    fn make_page(&self, file: &Path, out: &Path) -> Result<(), Failure> {
-        let page = Page::begin(file, true)?;
+    fn make_page(&self, file: &Path, replaceable: Replaceable, out: &Path) -> Result<(), Failure> {
+        let page = Page::begin(file, replaceable)?;
         let run = coinmc_report::Run::open(out, &())?;
         page.write(&coinmc_report::report(
             &[run],
@@ -205,8 +214,9 @@ pub(super) fn show(
     match format {
         ResultFormat::Json => output::print_json(&to_json(report, &fair, out)),
         ResultFormat::Table => {
-            let csv = out.join(csv_name(report.status));
-            output::print(&summary(results, &fair, &csv, plotted, console.stdout()))
+            let csv = csv_in(out, report.status);
+            let text = summary(results, &fair, csv.as_deref(), plotted, console.stdout());
+            output::print(&text)
         }
         ResultFormat::Csv => output::print_with(|stdout| write_csv(results, stdout)),
         ResultFormat::Markdown => output::print(&markdown(results, console.stdout())),
@@ -214,11 +224,13 @@ pub(super) fn show(
     .map_err(|error| Failure::Runtime(error.into()))
 }
 
-fn csv_name(status: Status) -> &'static str {
-    match status {
+/// The file of the results in a run directory; none where a process was killed before it wrote one.
+fn csv_in(out: &Path, status: Status) -> Option<PathBuf> {
+    let csv = out.join(match status {
         Status::Complete | Status::ShortOfTarget { .. } => "results.csv",
         Status::Interrupted | Status::Part => "results.partial.csv",
-    }
+    });
+    csv.is_file().then_some(csv)
 }
 
 /// What was done, in one line.
@@ -239,11 +251,7 @@ fn closing_line(report: &Report, progress: &Progress) -> String {
     if made == 0 && earlier > 0 && report.status != Status::Interrupted {
         return format!("coinmc: already finished, nothing to toss: {points}");
     }
-    let mut line = format!(
-        "coinmc: {points}, {} tosses in {}",
-        grouped(made),
-        duration(time)
-    );
+    let mut line = format!("coinmc: {points}, {} in {}", tosses(made), duration(time));
     if made > 0 {
         line += &format!(" ({}/s)", with_prefix(made as f64 / time.as_secs_f64()));
     }
@@ -458,5 +466,15 @@ mod tests {
         rows[0].stopped_by = StoppedBy::Targets;
         let text = short_of_target(&rows);
         assert!(!text.contains("total_tosses"), "{text}");
+    }
+
+    #[test]
+    fn only_a_file_that_is_there_is_named() {
+        let dir = tempfile::tempdir().unwrap();
+        assert_eq!(csv_in(dir.path(), Status::Interrupted), None);
+        let csv = dir.path().join("results.partial.csv");
+        std::fs::write(&csv, "").unwrap();
+        assert_eq!(csv_in(dir.path(), Status::Interrupted), Some(csv));
+        assert_eq!(csv_in(dir.path(), Status::Complete), None);
     }
 }

@@ -1,12 +1,12 @@
 //! `coinmc status`: how far runs are.
 
 use super::report::unreadable;
-use crate::exit::{Failure, Outcome};
+use crate::exit::{Failure, Outcome, several};
 use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::progress::Progress;
 use crate::terminal::{count, grouped};
 use clap::Args;
-use coinmc::run::{Report, Status as Finished, is_running, stored_report};
+use coinmc::run::{ProgressSink, Report, Status as Finished, is_running, stored_report};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -40,6 +40,8 @@ struct Row {
     tosses: u64,
     tosses_planned: u64,
     half_width: f64,
+    /// Of the widest interval of the points that are complete; `None` if none is.
+    widest: Option<f64>,
 }
 
 impl Status {
@@ -49,14 +51,10 @@ impl Status {
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let progress = Progress::new(*console.stderr(), true);
-        let rows = self.runs.iter().map(|run| {
-            // before the counts are read: a run that ends in the meantime is then called running
-            let runs = is_running(run);
-            let (_, report) = stored_report(run, &progress).map_err(unreadable)?;
-            Ok(Row::new(run, runs, &report))
-        });
-        let rows: Vec<Row> = rows.collect::<Result<_, Failure>>()?;
+        let (rows, failures) = self.rows(&progress);
         let printed = match self.format {
+            // one document: that of the failures
+            Format::Json if !failures.is_empty() => Ok(()),
             Format::Json => output::print_json(&json!({
                 "format_version": FORMAT_VERSION,
                 "kind": "status",
@@ -65,7 +63,26 @@ impl Status {
             Format::Table => output::print(&rows.iter().map(Row::line).collect::<String>()),
         };
         printed.map_err(|error| Failure::Runtime(error.into()))?;
-        Ok(Outcome::Done)
+        if failures.is_empty() {
+            return Ok(Outcome::Done);
+        }
+        Err(several(failures.into_iter()))
+    }
+}
+
+impl Status {
+    /// A row for every run directory, and what is wrong with the others.
+    fn rows(&self, sink: &dyn ProgressSink) -> (Vec<Row>, Vec<Failure>) {
+        let (mut rows, mut failures) = (Vec::new(), Vec::new());
+        for run in &self.runs {
+            // before the counts are read: a run that ends in the meantime is then called running
+            let runs = is_running(run);
+            match stored_report(run, sink) {
+                Ok((_, report)) => rows.push(Row::new(run, runs, &report)),
+                Err(error) => failures.push(unreadable(error)),
+            }
+        }
+        (rows, failures)
     }
 }
 
@@ -82,7 +99,11 @@ impl Row {
             (Finished::Interrupted, true) => "running",
             (Finished::Interrupted, false) => "stopped",
         };
+        let told = rows.each();
+        let told = told.filter(|row| is_finished || row.stopped_by.is_reached());
+        let widest = told.map(|row| row.half_width()).reduce(f64::max);
         Self {
+            widest,
             run: run.to_owned(),
             state,
             points: rows.len(),
@@ -121,10 +142,10 @@ impl Row {
             let share = 100.0 * *tosses as f64 / *tosses_planned as f64;
             line += &format!(" of {} tosses ({share:.0} %)", grouped(*tosses_planned));
         } else {
-            line += " tosses";
+            line += if *tosses == 1 { " toss" } else { " tosses" };
         }
-        if *tosses > 0 {
-            line += &format!(", widest interval ± {:.2e}", self.half_width);
+        if let Some(widest) = self.widest.filter(|_| *tosses > 0) {
+            line += &format!(", widest interval ± {widest:.2e}");
         }
         line + "\n"
     }
@@ -139,5 +160,69 @@ impl Row {
             "tosses_planned": self.tosses_planned,
             "half_width": self.half_width,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc::run::{Options, Part, run};
+    use std::sync::atomic::AtomicBool;
+
+    /// A run directory with part 1 of so many.
+    fn toss(out: &Path, parts: u32) {
+        let config = "coin.ratio = [1, 2]\nsurface = { restitution = 0.5, friction = 0 }\n\
+            launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 20000";
+        let plan = coinmc::config::parse("test", config, &[]).expect("a config");
+        let cancel = AtomicBool::new(false);
+        let options = Options {
+            out,
+            build: "test",
+            part: Part::new(1, parts).expect("a part"),
+            threads: None,
+            cancel: &cancel,
+            sink: &(),
+        };
+        run(&plan, &options).expect("a run");
+    }
+
+    fn rows(runs: &[PathBuf]) -> (Vec<Row>, Vec<Failure>) {
+        let status = Status {
+            runs: runs.to_vec(),
+            format: Format::Table,
+        };
+        status.rows(&())
+    }
+
+    #[test]
+    fn runs_are_told_beside_all_directories_that_are_none() {
+        let dir = tempfile::tempdir().expect("a directory");
+        let runs = ["nothing", "first", "neither"].map(|name| dir.path().join(name));
+        toss(&runs[1], 1);
+        let (rows, failures) = rows(&runs);
+        assert_eq!(rows.len(), 1);
+        assert!(
+            rows[0]
+                .line()
+                .contains("first: finished, 2 points, 40 000 tosses, widest")
+        );
+        let told = several(failures.into_iter()).message();
+        assert!(told.contains("nothing is not a run directory"), "{told}");
+        assert!(told.contains("neither is not a run directory"), "{told}");
+    }
+
+    #[test]
+    fn intervals_are_told_of_complete_points_alone() {
+        let dir = tempfile::tempdir().expect("a directory");
+        // the full chunk of one point and the short one of the other, or all of one
+        let runs = [3, 2].map(|parts| dir.path().join(parts.to_string()));
+        toss(&runs[0], 3);
+        toss(&runs[1], 2);
+        let (rows, _) = rows(&runs);
+        let line = rows[0].line();
+        assert!(line.contains("a complete part, 0 of 2 points"), "{line}");
+        assert!(!line.contains("interval"), "{line}");
+        assert!(rows[1].line().contains("1 of 2 points"));
+        assert!(rows[1].widest.is_some_and(|widest| widest < 0.01));
     }
 }

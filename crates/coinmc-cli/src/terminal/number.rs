@@ -19,6 +19,11 @@ pub(crate) fn count(n: u64, noun: &str) -> String {
     format!("{} {noun}{}", grouped(n), if n == 1 { "" } else { "s" })
 }
 
+/// `1 toss`, `20 000 tosses`.
+pub(crate) fn tosses(n: u64) -> String {
+    format!("{} toss{}", grouped(n), if n == 1 { "" } else { "es" })
+}
+
 /// Decimals that show an error to two digits, three at least and seven at most.
 pub(crate) fn decimals_for(error: f64) -> usize {
     if !(error > 0.0 && error < 1.0) {
@@ -89,6 +94,8 @@ mod tests {
     fn counts_are_grouped_and_agree_with_their_noun() {
         assert_eq!(count(1, "point"), "1 point");
         assert_eq!(count(0, "point"), "0 points");
+        assert_eq!(tosses(1), "1 toss");
+        assert_eq!(tosses(20_000), "20 000 tosses");
     }
 
     #[test]

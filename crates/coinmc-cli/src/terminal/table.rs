@@ -1,6 +1,6 @@
 //! A table that fits its terminal.
 
-use super::{Colors, Style, count};
+use super::{Colors, Style, count, wrapped};
 
 /// Blanks between two columns.
 const GAP: usize = 2;
@@ -62,11 +62,10 @@ enum Line {
     Note(String),
 }
 
-/// A table as text, and the titles of the columns that did not fit.
+/// A table as text, with a line that names the columns that did not fit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Rendered {
     pub(crate) text: String,
-    pub(crate) left_out: Vec<String>,
 }
 
 impl Table {
@@ -112,18 +111,21 @@ impl Table {
             };
             text.push('\n');
         }
-        Rendered {
-            text,
-            left_out: left_out
-                .into_iter()
-                .map(|c| {
-                    let title = &self.columns[c].title;
-                    match self.constant(c) {
-                        Some(value) => format!("{title} ({value} in every row)"),
-                        None => title.clone(),
-                    }
-                })
-                .collect(),
+        if !left_out.is_empty() {
+            let names: Vec<String> = left_out.into_iter().map(|c| self.left_out(c)).collect();
+            let note = format!("Too narrow to show: {}", names.join(", "));
+            let note = wrapped(&note, style.width, 4);
+            text += &format!("{}\n", style.paint(Colors::Faint, note.trim_end()));
+        }
+        Rendered { text }
+    }
+
+    /// The title of a column that does not fit, and what it says if that is the same in every row.
+    fn left_out(&self, column: usize) -> String {
+        let title = &self.columns[column].title;
+        match self.constant(column) {
+            Some(value) => format!("{title} ({value} in every row)"),
+            None => title.clone(),
         }
     }
 
@@ -251,21 +253,28 @@ ratio          P(side)     tosses  why
   2.5  0.3333 ± 0.0010  3 000 000
 "
         );
-        assert!(rendered.left_out.is_empty());
+    }
+
+    /// What a table says that it does not show, at a width.
+    fn left_out(table: &Table, width: usize) -> Option<String> {
+        let text = table
+            .render(&Style::plain(width))
+            .text
+            .replace("\n    ", " ");
+        let (_, note) = text.split_once("Too narrow to show: ")?;
+        Some(note.trim_end().to_owned())
     }
 
     #[test]
     fn the_least_important_columns_go_first() {
-        let rendered = sample(2).render(&Style::plain(40));
-        assert_eq!(rendered.left_out, ["why"]);
-        assert!(rendered.text.lines().all(|line| line.chars().count() <= 40));
-        let rendered = sample(2).render(&Style::plain(30));
-        assert_eq!(rendered.left_out, ["tosses", "why"]);
+        let table = sample(2);
+        assert_eq!(left_out(&table, 80), None);
+        assert_eq!(left_out(&table, 40).as_deref(), Some("why"));
+        let text = table.render(&Style::plain(40)).text;
+        assert!(text.lines().all(|line| line.chars().count() <= 40));
+        assert_eq!(left_out(&table, 30).as_deref(), Some("tosses, why"));
         // rank 0 stays even where it does not fit
-        assert_eq!(
-            sample(2).render(&Style::plain(5)).left_out,
-            ["tosses", "why"]
-        );
+        assert_eq!(left_out(&table, 5).as_deref(), Some("tosses, why"));
     }
 
     #[test]
@@ -278,15 +287,16 @@ ratio          P(side)     tosses  why
         for (ratio, heads) in [("1", "0.4 ± 0.1"), ("2", "0.3 ± 0.1")] {
             table.push([ratio, heads, "0"].map(str::to_owned).to_vec());
         }
-        let rendered = table.render(&Style::plain(20));
-        assert_eq!(rendered.left_out, ["undecided (0 in every row)"]);
-        assert!(rendered.text.contains("0.3 ± 0.1"), "{}", rendered.text);
+        let noted = left_out(&table, 20);
+        assert_eq!(noted.as_deref(), Some("undecided (0 in every row)"));
+        let text = table.render(&Style::plain(20)).text;
+        assert!(text.contains("0.3 ± 0.1"), "{text}");
         // nothing is left out where programs read
         let whole = Style {
             whole: true,
             ..Style::plain(20)
         };
-        assert!(table.render(&whole).left_out.is_empty());
+        assert!(!table.render(&whole).text.contains("Too narrow"));
         assert_eq!(
             table.markdown(),
             "| ratio | P(heads) | undecided |\n| ---: | ---: | ---: |\n\

@@ -248,22 +248,48 @@ fn checked(template: &Template, question: &Question) -> Result<[f64; 2], Questio
     if template.is_sized() && key == "coin.radius_m" {
         return Err(QuestionError::SizeIsSought { key: key.clone() });
     }
-    let [from, to] = match (question.range, key.as_str()) {
-        (Some(range), _) => range,
-        (None, "coin.ratio") => ratios(template)?,
-        (None, "surface.restitution") => [0.0, 0.95],
-        (None, "surface.friction") => [0.0, 1.0],
-        (None, _) => {
-            // a key that does not exist is reported as such
-            template.plan(&[(key, "1.0".to_owned())])?;
-            return Err(QuestionError::NoRange { key: key.clone() });
-        }
+    let [from, to] = match question.range {
+        Some(range) => range,
+        None => natural_range(template, key)?,
     };
     if !(from.is_finite() && to.is_finite() && from < to) {
         return Err(QuestionError::Range { from, to });
     }
     check_ends(template, key, [from, to])?;
     Ok([from, to])
+}
+
+/// The range in which [`fair`] searches the parameter of this key if no other is asked for.
+///
+/// # Errors
+/// [`QuestionError::NoRange`] if it has none; [`QuestionError`] if the config has problems.
+///
+/// # Example
+/// ```
+/// use coinmc_questions::{Template, natural_range};
+/// let text = "
+///     coin.ratio = 1
+///     surface = { restitution = 0.5, friction = 0.3 }
+///     launch.preset = 'robot'
+///     engine.flat = {}
+/// ";
+/// let template = Template::new("inline", text, &[]);
+/// assert_eq!(natural_range(&template, "surface.friction")?, [0.0, 1.0]);
+/// # Ok::<(), coinmc_questions::QuestionError>(())
+/// ```
+pub fn natural_range(template: &Template, key: &str) -> Result<[f64; 2], QuestionError> {
+    match key {
+        "coin.ratio" => ratios(template),
+        "surface.restitution" => Ok([0.0, 0.95]),
+        "surface.friction" => Ok([0.0, 1.0]),
+        _ => {
+            // a key that does not exist is reported as such
+            template.plan(&[(key, "1.0".to_owned())])?;
+            Err(QuestionError::NoRange {
+                key: key.to_owned(),
+            })
+        }
+    }
 }
 
 /// Refuses an end at which there is no such scene, before any toss. What is wrong at both ends may be the key,

@@ -49,6 +49,8 @@ fn fixed_size(total: u64, plan: &Plan) -> u64 {
 /// so that what an earlier run counted can be checked without its history.
 #[derive(Debug, Clone)]
 pub(super) struct Cut {
+    /// Points of the plan.
+    points: u64,
     /// Tosses of a point at most.
     tosses: u64,
     /// Size of a chunk where the number of tosses is fixed.
@@ -57,15 +59,18 @@ pub(super) struct Cut {
 
 impl Cut {
     pub(super) fn new(plan: &Plan) -> Self {
+        let points = plan.points.len() as u64;
         match plan.stop {
             Stop::Tosses(tosses) => {
                 let total = tosses.saturating_mul(plan.points_tossed());
                 Self {
+                    points,
                     tosses,
                     fixed: Some(fixed_size(total, plan)),
                 }
             }
             Stop::Targets(Targets { max_tosses, .. }) => Self {
+                points,
                 tosses: max_tosses,
                 fixed: None,
             },
@@ -104,18 +109,24 @@ impl Cut {
         self.fixed.is_none()
     }
 
-    /// The chunk's number in the whole run, which decides the part that it belongs to. Only a run of fixed
-    /// length has parts.
-    pub(super) fn number(&self, chunk: &Chunk) -> u64 {
+    /// The chunk's turn when chunks are dealt out to the parts of a run. Only a run of fixed length has parts.
+    ///
+    /// The chunks of full size come first, then the shorter last ones of all points: dealt out point by point, the
+    /// short ones could all go to the same parts.
+    pub(super) fn turn(&self, chunk: &Chunk) -> u64 {
         let Some(size) = self.fixed else { return 0 };
         if chunk.tosses.is_empty() {
             // integrated: one chunk per point
             return chunk.point as u64;
         }
-        let chunks_a_point = self.tosses.div_ceil(size);
-        (chunk.point as u64)
-            .wrapping_mul(chunks_a_point)
-            .wrapping_add(chunk.tosses.start / size)
+        let full_a_point = self.tosses / size;
+        let place = chunk.tosses.start / size;
+        let (row, length, column) = if place < full_a_point {
+            (chunk.point as u64, full_a_point, place)
+        } else {
+            (self.points, full_a_point, chunk.point as u64)
+        };
+        row.wrapping_mul(length).wrapping_add(column)
     }
 
     /// Chunks of a point, if the number of tosses is fixed.
@@ -152,6 +163,7 @@ impl Cut {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::Part;
     use std::collections::HashSet;
 
     fn plan(points: u32, stop: &str) -> Plan {
@@ -210,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_has_a_bounded_number_of_chunks_each_with_a_number_of_its_own() {
+    fn a_run_has_a_bounded_number_of_chunks_each_with_a_turn_of_its_own() {
         for (points, tosses) in [
             (2, 1_u64),
             (7, 100_000),
@@ -220,7 +232,7 @@ mod tests {
             let plan = plan(points, &format!("tosses = {tosses}"));
             let cut = Cut::new(&plan);
             let chunks = (0..plan.points.len()).flat_map(|point| cut.chunks(point, 0..tosses));
-            let numbers: Vec<u64> = chunks.map(|chunk| cut.number(&chunk)).collect();
+            let numbers: Vec<u64> = chunks.map(|chunk| cut.turn(&chunk)).collect();
             assert!(numbers.len() as u64 <= MOST_CHUNKS + u64::from(points));
             assert_eq!(numbers.iter().collect::<HashSet<_>>().len(), numbers.len());
             assert!(cut.end(0).is_power_of_two());
@@ -234,6 +246,24 @@ mod tests {
         assert!(chunks <= 1_000_000_000_000 / LARGEST + 30 * CHUNKS_AN_OCTAVE);
         let most = Cut::new(&plan(2, "half_width = 1e-6\nmax_tosses = 1e15"));
         assert_eq!(most.end(1 << 49), (1 << 49) + (1 << 33));
+    }
+
+    /// Whatever the chunks of a point, a full and a short one among them.
+    #[test]
+    fn parts_make_about_the_same_number_of_tosses() {
+        for (points, tosses, of) in [(126, 20_000, 4), (60, 70_000, 5), (64, 120_000, 8)] {
+            let plan = plan(points, &format!("tosses = {tosses}"));
+            let cut = Cut::new(&plan);
+            let mut made = vec![0; of as usize];
+            for chunk in (0..plan.points.len()).flat_map(|point| cut.chunks(point, 0..tosses)) {
+                let owns = |index: &u32| Part::new(index + 1, of).unwrap().owns(cut.turn(&chunk));
+                let owner = (0..of).find(owns).unwrap();
+                made[owner as usize] += chunk.tosses.end - chunk.tosses.start;
+            }
+            let difference = made.iter().max().unwrap() - made.iter().min().unwrap();
+            let size = cut.end(0);
+            assert!(difference <= size + tosses % size, "{made:?}");
+        }
     }
 
     #[test]

@@ -70,6 +70,15 @@ pub enum RunError {
         /// What differs, where the other config can be read.
         why: Option<String>,
     },
+    /// The config in a run directory is no longer that of its run.
+    #[error(
+        "{} is not the config that was run: it has been changed since. Undo the change, or run it into a new directory",
+        path.display()
+    )]
+    ChangedConfig {
+        /// The config.
+        path: PathBuf,
+    },
     /// The directory was begun by another version of the program, which may toss differently.
     #[error(
         "{} was begun by coinmc {theirs}, this is {ours}: finish it with {theirs}, or choose \
@@ -182,6 +191,9 @@ pub enum RunError {
         /// The directory.
         dir: PathBuf,
     },
+    /// Several directories cannot be used, each for a reason of its own.
+    #[error("{}", .0.iter().map(Self::to_string).collect::<Vec<_>>().join("\n"))]
+    Several(Vec<Self>),
     /// Some chunks are in none of the parts.
     #[error("{0}")]
     Missing(Missing),
@@ -207,6 +219,15 @@ pub enum RunError {
 }
 
 impl RunError {
+    /// All of several errors; that itself if there is but one.
+    pub(crate) fn all(mut errors: Vec<Self>) -> Self {
+        if errors.len() == 1 {
+            errors.remove(0)
+        } else {
+            Self::Several(errors)
+        }
+    }
+
     /// Classifies an error of the operating system: a full disk has its own variant.
     pub(crate) fn io(action: &'static str, path: &Path, source: io::Error) -> Self {
         use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};

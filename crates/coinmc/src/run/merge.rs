@@ -10,10 +10,10 @@ use super::missing::{Missing, what_is_missing};
 use super::packed::Packed;
 use super::provenance::Records;
 use super::schedule::Schedule;
-use super::stored::{read_manifest, read_plan};
+use super::stored::{read_manifest, stored_plan};
 use super::tallies::{Entry, Tallies};
 use super::{Chunk, Part, ProgressSink, Report, RunError};
-use crate::plan::Plan;
+use crate::plan::{Obstacle, Plan};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -26,7 +26,8 @@ use std::sync::Arc;
 ///
 /// # Errors
 /// [`RunError::Missing`] with the chunks that no part holds, [`RunError::Conflict`] if two parts
-/// disagree, [`RunError::OtherPlan`] or [`RunError::OtherVersion`] if they are not of one run, and
+/// disagree, [`RunError::OtherPlan`] or [`RunError::OtherVersion`] if they are not of one run,
+/// [`RunError::Several`] if several directories cannot be used, and
 /// what [`run`](super::run) says about a directory it cannot use.
 pub fn merge(inputs: &[PathBuf], out: &Path, sink: &dyn ProgressSink) -> Result<Report, RunError> {
     merge_all(inputs, out, false, sink).map(|(report, _)| report)
@@ -66,7 +67,8 @@ fn merge_all(
     if let Some(missing) = missing.clone().filter(|_| !partly) {
         return Err(RunError::Missing(missing));
     }
-    let directory = RunDirectory::open_with(out, &plan, manifest, sink)?;
+    let directory = RunDirectory::open_with(out, &plan, manifest, sink);
+    let directory = directory.map_err(|error| with_changes(error, &plan, out))?;
     store(&plan, found, &directory, inputs, out, sink)?;
     let report = conclude(&plan, Part::WHOLE, schedule, &directory, sink)?;
     Ok((report, missing))
@@ -99,20 +101,18 @@ struct Gathered {
 
 impl Gathered {
     fn from(inputs: &[PathBuf], sink: &dyn ProgressSink) -> Result<Self, RunError> {
-        let first = inputs.first().ok_or(RunError::NothingToMerge)?;
-        let plan = Arc::new(read_plan(first)?);
-        let mut manifest = Manifest {
-            targets: BTreeSet::new(),
-            ..Manifest::new(&plan, Part::WHOLE)
-        };
-        let mut parts = Vec::new();
+        let (mut run, mut parts, mut errors) = (None, Vec::new(), Vec::new());
         for input in inputs {
-            let theirs = read_manifest(input)?;
-            theirs.must_be_same_run(&manifest, input)?;
-            parts.push(theirs.part(input)?);
-            manifest.targets.extend(theirs.targets);
-            manifest.builds.extend(theirs.builds);
+            match add_part(&mut run, input) {
+                Ok(part) => parts.push(part),
+                Err(error) => errors.push(error),
+            }
         }
+        if !errors.is_empty() {
+            return Err(RunError::all(errors));
+        }
+        let (plan, manifest) = run.ok_or(RunError::NothingToMerge)?;
+        let plan = Arc::new(plan);
         let found = collect(&plan, &manifest.plan_hash, inputs, sink)?;
         Ok(Self {
             plan,
@@ -120,6 +120,52 @@ impl Gathered {
             parts,
             found,
         })
+    }
+}
+
+/// Adds the directory of a part to the run that the directories before it are of, and says which part it is.
+fn add_part(run: &mut Option<(Plan, Manifest)>, dir: &Path) -> Result<Part, RunError> {
+    let (plan, manifest) = match run {
+        Some(run) => run,
+        None => run.insert(first_part(dir)?),
+    };
+    let theirs = read_manifest(dir)?;
+    let same = theirs.must_be_same_run(manifest, dir);
+    same.map_err(|error| with_changes(error, plan, dir))?;
+    let part = theirs.part(dir)?;
+    manifest.targets.extend(theirs.targets);
+    manifest.builds.extend(theirs.builds);
+    Ok(part)
+}
+
+/// The run of a part, and the manifest of that run when no part is merged yet.
+fn first_part(dir: &Path) -> Result<(Plan, Manifest), RunError> {
+    let plan = stored_plan(dir)?;
+    let manifest = Manifest {
+        targets: BTreeSet::new(),
+        ..Manifest::new(&plan, Part::WHOLE)
+    };
+    Ok((plan, manifest))
+}
+
+/// The error with the keys that differ in place of hashes, where the plan of the directory can be read.
+fn with_changes(error: RunError, plan: &Plan, dir: &Path) -> RunError {
+    match (error, stored_plan(dir)) {
+        (
+            RunError::OtherPlan {
+                dir, theirs, ours, ..
+            },
+            Ok(other),
+        ) => {
+            let changed = Obstacle::Changed(other.changes(plan));
+            RunError::OtherPlan {
+                dir,
+                theirs,
+                ours,
+                why: Some(changed.to_string()),
+            }
+        }
+        (error, _) => error,
     }
 }
 

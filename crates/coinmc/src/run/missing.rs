@@ -77,7 +77,7 @@ impl fmt::Display for Missing {
         let named = self.chunks.iter().take(NAMED);
         let named: Vec<String> = named.map(Chunk::to_string).collect();
         write!(f, "{are} in none of the parts: {}", named.join("; "))?;
-        if self.total > named.len() as u64 {
+        if self.chunks.len() > NAMED {
             write!(f, "; …")?;
         }
         match &self.parts[..] {
@@ -105,7 +105,7 @@ pub(super) fn what_is_missing(
     let (mut chunks, mut total, mut owners) = (Vec::<Chunk>::new(), 0, BTreeSet::new());
     while let Next::Chunk(Job { chunk, .. }) = schedule.next() {
         total += 1;
-        owners.insert(cut.number(&chunk) % u64::from(of));
+        owners.insert(cut.turn(&chunk) % u64::from(of));
         let has_room = chunks.len() <= NAMED;
         match chunks.last_mut() {
             Some(last) if last.point == chunk.point && last.tosses.end == chunk.tosses.start => {

@@ -4,7 +4,8 @@ use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// Part `index` of `of`, counted from 1: the chunks with numbers equal to `index - 1` modulo `of`.
+/// Part `index` of `of`, counted from 1: the chunks whose turn is `index - 1` modulo `of`, the full
+/// ones of all points first, then the shorter last ones.
 ///
 /// # Example
 /// ```
@@ -63,9 +64,9 @@ impl Part {
         self.of
     }
 
-    /// Whether chunk number `chunk` of the run belongs to this part.
-    pub(super) fn owns(self, chunk: u64) -> bool {
-        chunk % u64::from(self.of) == u64::from(self.index - 1)
+    /// Whether the chunk with this turn belongs to this part.
+    pub(super) fn owns(self, turn: u64) -> bool {
+        turn % u64::from(self.of) == u64::from(self.index - 1)
     }
 }
 

@@ -151,7 +151,7 @@ impl Schedule {
                 self.close_stage_if_complete(point);
                 continue;
             };
-            if self.part != Part::WHOLE && !self.part.owns(self.cut.number(&chunk)) {
+            if self.part != Part::WHOLE && !self.part.owns(self.cut.turn(&chunk)) {
                 continue;
             }
             if self.take_finished(&chunk) {

@@ -18,13 +18,26 @@ use std::sync::Arc;
 /// The plan of the run that a directory holds: to replay its tosses, for example.
 ///
 /// # Errors
-/// [`RunError::NoRun`], [`RunError::BadConfig`]; [`RunError::OtherPlan`] if the config
+/// [`RunError::NoRun`], [`RunError::BadConfig`]; [`RunError::ChangedConfig`] if the config
 /// is not the one that was run, [`RunError::OtherVersion`] if another version ran it, which may
 /// toss differently.
 pub fn stored_plan(dir: &Path) -> Result<Plan, RunError> {
     let plan = read_plan(dir)?;
-    read_manifest(dir)?.must_be_same_run(&Manifest::new(&plan, Part::WHOLE), dir)?;
-    Ok(plan)
+    let (theirs, ours) = (read_manifest(dir)?, Manifest::new(&plan, Part::WHOLE));
+    match theirs.must_be_same_run(&ours, dir) {
+        // another version may understand the same config otherwise
+        Err(RunError::OtherPlan { dir, .. }) if theirs.program_version != ours.program_version => {
+            Err(RunError::OtherVersion {
+                dir,
+                theirs: theirs.program_version,
+                ours: ours.program_version,
+            })
+        }
+        Err(RunError::OtherPlan { .. }) => Err(RunError::ChangedConfig {
+            path: dir.join(CONFIG),
+        }),
+        same => same.map(|()| plan),
+    }
 }
 
 /// The plan of a run directory and all that is counted so far, whether the run is finished, stopped
@@ -62,7 +75,7 @@ pub fn stored_report(dir: &Path, sink: &dyn ProgressSink) -> Result<(Plan, Repor
     let mut lacks_its_own = false;
     // missing chunks stay handed out
     while let Next::Chunk(job) = schedule.next() {
-        lacks_its_own |= part.owns(cut.number(&job.chunk));
+        lacks_its_own |= part.owns(cut.turn(&job.chunk));
     }
     let status = match (part, lacks_its_own) {
         (Part::WHOLE, _) => status(Part::WHOLE, &schedule),

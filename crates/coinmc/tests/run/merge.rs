@@ -69,7 +69,7 @@ fn missing_chunks_are_named_and_nothing_is_written() {
     let parts = run_parts(dir.path(), 3);
     let out = dir.path().join("merged");
     let error = merge(&parts[..2], &out, &()).unwrap_err();
-    // three chunks a point: the third of each is missing
+    // every third of the full chunks, two a point, and of the short ones, one a point
     let RunError::Missing(missing) = &error else {
         panic!("{error}")
     };
@@ -77,12 +77,12 @@ fn missing_chunks_are_named_and_nothing_is_written() {
     assert_eq!(
         missing.chunks[1],
         Chunk {
-            point: 1,
-            tosses: 32_768..40_000
+            point: 2,
+            tosses: 16_384..40_000
         }
     );
     assert!(
-        error.to_string().contains("point 1, tosses 32768..40000"),
+        error.to_string().contains("point 2, tosses 16384..40000"),
         "{error}"
     );
     assert!(!out.exists());
@@ -124,6 +124,8 @@ fn neighbouring_missing_chunks_are_named_together() {
             tosses: 0..40_000
         })
     );
+    // all are named
+    assert!(!error.to_string().contains('…'), "{error}");
 }
 
 /// Two of three parts make a run that was stopped; with the third it is the whole.
@@ -192,7 +194,7 @@ fn invalid_merges_are_rejected() {
         Err(RunError::MergeIntoPart { .. })
     ));
     let nothing = dir.path().join("nothing");
-    let with_nothing = [parts.clone(), vec![nothing]].concat();
+    let with_nothing = [parts.clone(), vec![nothing.clone()]].concat();
     assert!(matches!(
         merge(&with_nothing, &out, &()),
         Err(RunError::NoRun { .. })
@@ -201,11 +203,32 @@ fn invalid_merges_are_rejected() {
     let other = dir.path().join("other");
     run_whole(&plan("tosses = 100"), &other);
     let error = merge(&[parts.clone(), vec![other.clone()]].concat(), &out, &()).unwrap_err();
-    assert!(matches!(error, RunError::OtherPlan { .. }), "{error}");
+    let changes = "(stop.tosses 100 -> 40000)";
+    assert!(error.to_string().contains(changes), "{error}");
+    let several = [vec![nothing], parts.clone(), vec![other.clone()]].concat();
+    let error = merge(&several, &out, &()).unwrap_err();
+    let told = error.to_string();
+    assert!(matches!(error, RunError::Several(_)), "{told}");
+    assert!(
+        told.contains("no such directory") && told.contains(changes),
+        "{told}"
+    );
     let error = merge(&parts, &other, &()).unwrap_err();
-    assert!(matches!(error, RunError::OtherPlan { .. }), "{error}");
+    assert!(error.to_string().contains(changes), "{error}");
 
-    fs::write(parts[0].join("config.toml"), "seed = ").unwrap();
+    let config = parts[0].join("config.toml");
+    let text = fs::read_to_string(&config).unwrap();
+    fs::write(
+        &config,
+        format!(
+            "# the seed is another\n{}",
+            text.replace("seed = 7", "seed = 8")
+        ),
+    )
+    .unwrap();
+    let error = merge(&parts, &out, &()).unwrap_err().to_string();
+    assert!(error.contains("is not the config that was run"), "{error}");
+    fs::write(&config, "seed = ").unwrap();
     assert!(matches!(
         merge(&parts, &out, &()),
         Err(RunError::BadConfig { .. })

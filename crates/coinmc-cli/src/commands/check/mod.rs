@@ -59,7 +59,7 @@ pub(crate) struct Check {
     #[arg(long, conflicts_with_all = ["overrides", "nodes", "defaults"])]
     missing: bool,
 
-    /// Plan jobs of 10 to 60 minutes for a cluster of so many nodes
+    /// Plan jobs of at most 30 minutes for a cluster of so many nodes
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     nodes: Option<u32>,
 

@@ -22,7 +22,7 @@ Examples:
   coinmc fair toss.toml --vary surface.restitution  which bounce makes this coin fair?
   coinmc fair toss.toml --face heads --target 0.45
 
-Scenes: table, wood, glass, steel, felt, tray, billiards, floor, carpet. What each assumes is printed with
+Scenes: table, wood, glass, steel, felt, tray, billiards, floor, carpet. What each assumes is printed with \
 the answer.";
 
 /// Find how thick a fair coin is, with the error of the answer
@@ -37,7 +37,8 @@ pub(crate) struct Fair {
     scene: SceneArgs,
 
     /// The face
-    #[arg(long, value_name = "FACE", value_parser = super::face, default_value = "side")]
+    #[arg(long, value_name = "FACE", value_parser = super::names::face(), default_value = "side")]
+    #[arg(hide_possible_values = true)]
     face: Face,
 
     /// Its probability [default: 1/3]
@@ -49,11 +50,11 @@ pub(crate) struct Fair {
     vary: String,
 
     /// Least value to search [default for coin.ratio: 0.05]
-    #[arg(long, value_name = "X", requires = "to")]
+    #[arg(long, value_name = "X")]
     from: Option<f64>,
 
     /// Largest value to search [default for coin.ratio: 4]
-    #[arg(long, value_name = "X", requires = "from")]
+    #[arg(long, value_name = "X")]
     to: Option<f64>,
 
     /// Search until the interval is no wider than ± this
@@ -155,7 +156,7 @@ impl Fair {
     ) -> Result<Answered, QuestionError> {
         let question = Question {
             key: self.vary.clone(),
-            range: self.from.zip(self.to).map(|(from, to)| [from, to]),
+            range: self.range(template)?,
             face: self.face,
             target: self.target.unwrap_or(1.0 / 3.0),
             half_width: self.half_width,
@@ -175,6 +176,18 @@ impl Fair {
             scene,
             answer,
             effects,
+        })
+    }
+
+    /// The range to search, if the command line says anything of it.
+    fn range(&self, template: &Template) -> Result<Option<[f64; 2]>, QuestionError> {
+        Ok(match (self.from, self.to) {
+            (None, None) => None,
+            (Some(from), Some(to)) => Some([from, to]),
+            (from, to) => {
+                let [least, largest] = questions::natural_range(template, &self.vary)?;
+                Some([from.unwrap_or(least), to.unwrap_or(largest)])
+            }
         })
     }
 
@@ -205,5 +218,36 @@ impl Fair {
         } else {
             Outcome::Done
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct Only {
+        #[command(flatten)]
+        fair: Fair,
+    }
+
+    fn range(arguments: &[&str]) -> Result<Option<[f64; 2]>, QuestionError> {
+        let Only { fair } = Only::parse_from(["coinmc"].iter().chain(arguments));
+        let Ok((_, template)) = fair.template() else {
+            panic!("a scene of its own");
+        };
+        fair.range(&template)
+    }
+
+    #[test]
+    fn an_end_of_the_range_that_is_not_given_has_its_default() {
+        assert_eq!(range(&[]).expect("no range"), None);
+        assert_eq!(range(&["--from=1"]).expect("a range"), Some([1.0, 4.0]));
+        assert_eq!(range(&["--to=1"]).expect("a range"), Some([0.05, 1.0]));
+        let both = range(&["--vary=launch.height_m", "--from=1", "--to=2"]);
+        assert_eq!(both.expect("a range"), Some([1.0, 2.0]));
+        let one = range(&["--vary=launch.height_m", "--from=1"]);
+        assert!(matches!(one, Err(QuestionError::NoRange { .. })));
     }
 }

@@ -2,8 +2,10 @@
 
 use super::Answered;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, decimals_for, decimals_that_show, grouped};
-use crate::terminal::{in_ascii, signed, wrapped};
+use crate::terminal::{
+    Colors, Style, compact, decimals_for, decimals_that_show, grouped, in_ascii, signed, tosses,
+    wrapped,
+};
 use coinmc_core::Coin;
 use coinmc_questions::assumptions::Effect;
 use coinmc_questions::{Curve, Fair, Finding, Root, Scanned};
@@ -69,9 +71,8 @@ fn of_curve(answer: &Fair, curve: &Curve, show: bool, style: &Style) -> String {
         text += &match finding {
             Finding::Root(root) => of_root(answer, root, style),
             Finding::Near { from, to } => format!(
-                "    none seen, but P comes too near to the target to tell from {} to {}\n",
-                compact(*from),
-                compact(*to)
+                "    none seen, but P comes too near to the target to tell {}\n",
+                stretch(*from, *to)
             ),
         };
     }
@@ -127,6 +128,14 @@ fn by_tosses(tosses: u64) -> String {
     }
 }
 
+/// `from 1.5 to 2`, or `near 2` where the ends look the same.
+fn stretch(from: f64, to: f64) -> String {
+    match (compact(from), compact(to)) {
+        (from, to) if from == to => format!("near {from}"),
+        (from, to) => format!("from {from} to {to}"),
+    }
+}
+
 /// To four decimals.
 fn to_four(x: f64) -> f64 {
     libm::round(1e4 * x) / 1e4
@@ -151,7 +160,7 @@ fn of_root(answer: &Fair, root: &Root, style: &Style) -> String {
     let tosses = if answer.known {
         "without tosses".to_owned()
     } else {
-        format!("{} tosses", grouped(root.tosses))
+        tosses(root.tosses)
     };
     text = style.paint(Colors::Strong, &text);
     let interval = if arm == 0.0 {

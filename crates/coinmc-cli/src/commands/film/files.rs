@@ -4,8 +4,8 @@ use crate::exit::Failure;
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use coinmc_film::text::{self, AngleOf, Choice, Diagnostics, Footage};
-use std::fs::OpenOptions;
-use std::io::{self, ErrorKind, Write};
+use coinmc_recording::NewFile;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// Meaning and units of the columns.
@@ -130,37 +130,25 @@ fn read(path: &Path, choice: &Choice) -> Result<Footage, Diagnostics> {
     text::read(&name, &bytes, choice)
 }
 
-/// Writes a new file.
-pub(super) fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let failed = |error: io::Error| {
-        let path = path.display();
-        match error.kind() {
-            ErrorKind::AlreadyExists => Failure::Input(anyhow!(
-                "{path} exists already and is not overwritten: remove it or choose another name"
-            )),
-            _ => Failure::Runtime(anyhow!("cannot write {path}: {error}")),
+/// Begins new files, which appear only when complete.
+pub(super) fn begin_new<'a>(
+    paths: impl IntoIterator<Item = &'a PathBuf>,
+) -> Result<Vec<NewFile>, Failure> {
+    let mut begun: Vec<(&PathBuf, NewFile)> = Vec::new();
+    for path in paths {
+        if begun.iter().any(|(other, _)| *other == path) {
+            return Err(Failure::Input(anyhow!("{} is given twice", path.display())));
         }
-    };
-    let mut file = OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .open(path)
-        .map_err(failed)?;
-    file.write_all(bytes).map_err(failed)
+        begun.push((path, NewFile::begin(path)?));
+    }
+    Ok(begun.into_iter().map(|(_, file)| file).collect())
 }
 
-/// Rejects existing output files before the work begins.
-pub(super) fn check_new<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), Failure> {
-    let mut seen: Vec<&PathBuf> = Vec::new();
-    for path in paths {
-        if path.exists() || seen.contains(&path) {
-            return Err(Failure::Input(anyhow!(
-                "{} exists already and is not overwritten: remove it or choose another name",
-                path.display()
-            )));
-        }
-        seen.push(path);
-    }
+/// Writes a file that was begun.
+pub(super) fn write(mut file: NewFile, bytes: &[u8]) -> Result<(), Failure> {
+    let written = file.write_all(bytes);
+    written.map_err(|error| Failure::Runtime(anyhow!(error)))?;
+    file.finish()?;
     Ok(())
 }
 
@@ -170,5 +158,25 @@ fn two_tracks(text: &str) -> Result<(String, String), String> {
             Ok((first.trim().to_owned(), second.trim().to_owned()))
         }
         _ => Err("give two tracks separated by a comma: A,B".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_appears_when_it_is_complete_and_replaces_none() {
+        let dir = tempfile::tempdir().expect("a directory");
+        let path = dir.path().join("fit.json");
+        let mut begun = begin_new([&path]).expect("a new file");
+        // a process that is killed now leaves nothing that has the name
+        assert!(!path.exists());
+        write(begun.remove(0), b"{}").expect("written");
+        assert_eq!(std::fs::read(&path).expect("the file"), b"{}");
+        assert!(begin_new([&path]).is_err());
+        let other = dir.path().join("other.csv");
+        let twice = begin_new([&other, &other]).expect_err("the same name twice");
+        assert!(twice.message().ends_with("is given twice"));
     }
 }

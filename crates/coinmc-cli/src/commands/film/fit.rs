@@ -1,6 +1,6 @@
 //! `coinmc film fit`: fitting laws to drops.
 
-use super::files::{Columns, check_new, write_new};
+use super::files::{self, Columns, begin_new};
 use super::law::LawName;
 use super::report;
 use super::scene::SceneArguments;
@@ -11,6 +11,7 @@ use clap::{Args, ValueEnum};
 use coinmc_film::{
     Fit as Fitted, Loss, Model, Options, Parameter, compare, fit_all, residuals_csv, residuals_svg,
 };
+use coinmc_recording::NewFile;
 use std::path::PathBuf;
 
 /// Fit impact laws to filmed drops and rank them
@@ -36,7 +37,7 @@ pub(super) struct Fit {
 
     /// Parameters to fit, if a law has them, separated by commas
     #[arg(long = "fit", value_enum, value_name = "NAME", value_delimiter = ',')]
-    #[arg(default_values_t = [Name::Restitution, Name::Friction, Name::Eta], help_heading = "Fit")]
+    #[arg(default_value = "restitution,friction,eta", help_heading = "Fit")]
     free: Vec<Name>,
 
     /// Number of bounces to fit: frames count up to the next bounce after these
@@ -107,13 +108,13 @@ impl Fit {
                 )));
             }
         }
-        check_new(self.out.iter().chain(&self.residuals))?;
+        let files = begin_new(self.out.iter().chain(&self.residuals))?;
         let (models, options) = self.task()?;
         let footage = self.columns.read(&self.files)?;
         let drops: Vec<_> = footage.into_iter().map(|footage| footage.drop).collect();
         let fits =
             fit_all(&models, &drops, &options).map_err(|error| Failure::Input(error.into()))?;
-        self.write(&fits)?;
+        self.write(files, &fits)?;
         let printed = match self.format {
             Format::Json => output::print_json(&report::to_json(&fits)),
             Format::Table => output::print(&report::to_text(&fits, console.stdout())),
@@ -163,18 +164,17 @@ impl Fit {
         Ok((models, options))
     }
 
-    fn write(&self, fits: &[Fitted]) -> Result<(), Failure> {
-        if let Some(path) = &self.out {
-            let text = format!("{:#}\n", report::to_json(fits));
-            write_new(path, text.as_bytes())?;
-        }
+    /// Writes the files of `out` and `residuals`, in this order.
+    fn write(&self, files: Vec<NewFile>, fits: &[Fitted]) -> Result<(), Failure> {
+        let fit = || format!("{:#}\n", report::to_json(fits));
         let best = compare(fits).first().map_or(0, |ranked| ranked.fit);
-        for path in &self.residuals {
-            let text = match ending(path) {
-                "svg" => residuals_svg(&fits[best]),
-                _ => residuals_csv(fits),
-            };
-            write_new(path, text.as_bytes())?;
+        let residuals = self.residuals.iter().map(|path| match ending(path) {
+            "svg" => residuals_svg(&fits[best]),
+            _ => residuals_csv(fits),
+        });
+        let texts = self.out.iter().map(|_| fit()).chain(residuals);
+        for (file, text) in files.into_iter().zip(texts) {
+            files::write(file, text.as_bytes())?;
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! `coinmc film synthesise`: a simulated film, in Tracker's text format.
 
-use super::files::{Direction, check_new, write_new};
+use super::files::{self, Direction, begin_new};
 use super::law::LawName;
 use super::scene::SceneArguments;
 use crate::exit::{Failure, Outcome};
@@ -17,6 +17,10 @@ use std::path::PathBuf;
 /// For trying `read` and `fit`, and for planning an experiment: how well would such a film
 /// determine the parameters? The arguments are the true values.
 #[derive(Debug, Args)]
+#[command(mut_arg("restitution", |arg| arg.help("Restitution [default: 0.5]")))]
+#[command(mut_arg("friction", |arg| arg.help("Friction [default: 0.3]")))]
+#[command(mut_arg("floor_m", |arg| arg.help("Height of the surface in the film, m")))]
+#[command(mut_arg("eta", |arg| arg.help("η of Gaek & Sukhov's law, N s [default: 0.001]")))]
 pub(super) struct Synthesise {
     /// The new file
     #[arg(value_name = "FILE")]
@@ -88,8 +92,8 @@ impl Synthesise {
     }
 
     pub(super) fn execute(&self, _: &Console) -> Result<Outcome, Failure> {
-        check_new([&self.file])?;
         self.check()?;
+        let files = begin_new([&self.file])?;
         let (model, shared) = self.scene.model(self.law)?;
         let mut start = [0.0; 6];
         start.copy_from_slice(&self.start);
@@ -117,7 +121,9 @@ impl Synthesise {
             ..Dialect::default()
         };
         let bytes = write(&drop, "coin", self.angle_of.into(), &dialect, Some(5));
-        write_new(&self.file, &bytes)?;
+        for file in files {
+            files::write(file, &bytes)?;
+        }
         let printed = match self.format {
             Format::Json => output::print_json(&json!({
                 "format_version": FORMAT_VERSION,

@@ -1,5 +1,6 @@
 //! `coinmc listen --synthetic`: the recording of a simulated toss.
 
+use crate::commands::new_file::must_end_in;
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, FORMAT_VERSION, Format};
 use anyhow::anyhow;
@@ -16,7 +17,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "A simulated recording")]
 pub(super) struct SyntheticArgs {
-    /// New file for the recording of a toss of the config, instead of listening
+    /// New file (.wav) for the recording of a toss of the config, instead of listening
     #[arg(
         long,
         value_name = "FILE",
@@ -85,6 +86,7 @@ impl SyntheticArgs {
             return Err(Failure::Input(anyhow!("--synthetic needs --config")));
         };
         self.check()?;
+        must_end_in(path, "wav")?;
         let mut file = NewFile::begin(path)?;
         let point = &observed.plan.points[0];
         let stream = Stream::new(seed, Domain::Launch, 0);

@@ -16,8 +16,8 @@ Examples:
   coinmc robot fairness day
   coinmc robot fairness --counts 170,160,171,158,172,169     a die, counted by hand
 
-`reveals` is the smallest bias that this number of throws detects with
-a probability of 80 % and 95 %: a test that finds nothing rules out
+`reveals` is the smallest bias that this number of throws detects with \
+a probability of 80 % and 95 %: a test that finds nothing rules out \
 larger biases.";
 
 /// Check the robot: a fair coin, a fair die, uniform spins and angles; exact tests with their power

@@ -28,7 +28,7 @@ Examples:
   coinmc robot run examples/robot.toml --out day --camera './my-camera'
   coinmc robot resume day
 
-The same command again, or `resume`, continues where the last one stopped, whatever stopped it. Ctrl-C
+The same command again, or `resume`, continues where the last one stopped, whatever stopped it. Ctrl-C \
 finishes the open throw first; a second one sends Stop to the robot, whose motors are off then.
 
 When a person is needed, the command ends with exit status 4 and runs --alert, if given.";
@@ -342,7 +342,7 @@ impl Session {
         if !self.quiet {
             output::note(&format!(
                 "coinmc: {} throws in this session; replies took {mean_ms:.1} ms on average, \
-                 {longest_ms:.0} ms at most",
+                 {longest_ms:.1} ms at most",
                 grouped(u64::from(progress.this_session))
             ));
             let dir = directory.path().display();

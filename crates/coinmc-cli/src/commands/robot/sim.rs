@@ -20,8 +20,8 @@ Example, in two terminals:
   coinmc robot run examples/robot.toml --port robot-port --speed 100 --out day \\
       --camera 'coinmc robot camera-sim --truth truth.jsonl'
 
-While it runs it obeys lines on standard input: reset, cut (a reset while it writes its next record),
-unplug [SECONDS], stick, press and release (the emergency stop), erase (the memory), swap (another
+While it runs it obeys lines on standard input: reset, cut (a reset while it writes its next record), \
+unplug [SECONDS], stick, press and release (the emergency stop), erase (the memory), swap (another \
 robot in its place), quit.";
 
 /// Simulate a robot on a pseudo-terminal, with faults on demand

@@ -6,8 +6,8 @@ use super::plan_of;
 use crate::exit::{Failure, Outcome};
 use crate::interrupt;
 use crate::output::{self, Console, FORMAT_VERSION, Format};
-use crate::terminal::grouped;
 use crate::terminal::progress::Progress;
+use crate::terminal::tosses;
 use anyhow::{Context, anyhow};
 use clap::Args;
 use coinmc::config::Override;
@@ -22,7 +22,7 @@ const EXAMPLES: &str = "\
 Example:
   coinmc trace map toss.toml --over wy_rad_s=0..60:48 --over height_m=0.1..1:32 -o map.html
 
-Quantities: height_m, vx_m_s, vy_m_s, vz_m_s, wx_rad_s, wy_rad_s, wz_rad_s, and tilt_rad or tilt_deg, the
+Quantities: height_m, vx_m_s, vy_m_s, vz_m_s, wx_rad_s, wy_rad_s, wz_rad_s, and tilt_rad or tilt_deg, the \
 angle of the heads normal from the vertical towards x. All else is as in the toss.";
 
 /// Pixels of a side of which the number is not given.
@@ -77,6 +77,12 @@ impl FromStr for Over {
     fn from_str(text: &str) -> Result<Self, String> {
         let (KeyRange { key, from, to }, pixels) = range_and_count(text, PIXELS)?;
         let quantity = key.parse().map_err(|error| format!("{error}"))?;
+        if !(from.is_finite() && to.is_finite() && from < to) {
+            return Err(format!("the range from {from:?} to {to:?} does not go up"));
+        }
+        if quantity == Quantity::Height && from < 0.0 {
+            return Err(format!("a height is not negative, as {from:?} is"));
+        }
         Ok(Self(quantity, from, to, pixels))
     }
 }
@@ -125,12 +131,31 @@ impl MapOf {
                 "pixels": pixels,
             })),
             Format::Table => output::print(&format!(
-                "Map: {} ({} tosses)\n",
+                "Map: {} ({})\n",
                 self.out.display(),
-                grouped(pixels)
+                tosses(pixels)
             )),
         }
         .map_err(|error| Failure::Runtime(error.into()))?;
         Ok(Outcome::Done)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_goes_up_and_a_height_is_not_negative() {
+        for (text, is_right) in [
+            ("height_m=0..1:8", true),
+            ("wy_rad_s=-60..60", true),
+            ("wy_rad_s=60..0", false),
+            ("wy_rad_s=60..60", false),
+            ("wy_rad_s=0..inf", false),
+            ("height_m=-1..1", false),
+        ] {
+            assert_eq!(text.parse::<Over>().is_ok(), is_right, "{text}");
+        }
     }
 }

@@ -6,7 +6,7 @@ use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::events::events;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Style, compact, grouped};
+use crate::terminal::{Style, compact, grouped, tosses};
 use coinmc::plan::Plan;
 use coinmc_trace::{Trace as Recorded, outcome_name};
 use serde_json::{Value, json};
@@ -89,7 +89,7 @@ fn remarks(trace: &Trace, selected: &Selected, traces: &[Recorded]) -> Vec<Strin
     let mut remarks = Vec::new();
     if let Some(searched) = selected.searched {
         let found = selected.tosses.len() as u64;
-        let searched = format!("{} tosses", grouped(searched));
+        let searched = tosses(searched);
         remarks.push(match selected.status {
             Status::Interrupted => format!("coinmc: stopped after {searched}; no file was written"),
             Status::Short { limit: true } => format!(

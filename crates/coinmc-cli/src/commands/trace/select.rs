@@ -4,7 +4,7 @@ use super::Trace;
 use crate::exit::Failure;
 use crate::terminal::progress::Progress;
 use coinmc::plan::Plan;
-use coinmc_trace::{MAX_RATE_HZ, Query, TraceError, launch, search};
+use coinmc_trace::{Condition, EndKind, MAX_RATE_HZ, Query, TraceError, launch, search};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -51,6 +51,11 @@ pub(super) fn check(trace: &Trace, plan: &Plan) -> Result<(), Failure> {
             "at most {MAX} tosses can be traced at a time"
         )));
     }
+    if let Some([first, second]) = contradiction(&trace.conditions) {
+        return Err(Failure::Input(anyhow::anyhow!(
+            "no toss has both {first} and {second}"
+        )));
+    }
     if let Some(rate) = trace
         .rate
         .filter(|rate| !(0.0..=MAX_RATE_HZ).contains(rate))
@@ -63,6 +68,25 @@ pub(super) fn check(trace: &Trace, plan: &Plan) -> Result<(), Failure> {
         launch(plan, point, toss)?;
     }
     Ok(())
+}
+
+/// The first two conditions that no toss meets together.
+fn contradiction(conditions: &[Condition]) -> Option<[String; 2]> {
+    let excludes = |first: &Condition, second: &Condition| match (first, second) {
+        (Condition::Face(_), Condition::Ended(end))
+        | (Condition::Ended(end), Condition::Face(_)) => *end != EndKind::Decided,
+        (first, second) => first != second,
+    };
+    let told = |condition: &Condition| match condition {
+        Condition::Face(face) => format!("face={}", face.name()),
+        Condition::Ended(end) => format!("ended={}", end.name()),
+    };
+    conditions.iter().enumerate().find_map(|(i, second)| {
+        let first = conditions[..i]
+            .iter()
+            .find(|first| excludes(first, second))?;
+        Some([told(first), told(second)])
+    })
 }
 
 /// All given tosses of all given points.
@@ -118,4 +142,24 @@ pub(super) fn select(
         searched: Some(findings.searched),
         status,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn conditions_that_exclude_each_other_are_noticed() {
+        for (texts, excluded) in [
+            (&["face=side"][..], false),
+            (&["face=side", "face=side", "ended=decided"], false),
+            (&["face=side", "face=heads"], true),
+            (&["ended=decided", "ended=failed"], true),
+            (&["ended=time_limit", "face=side"], true),
+        ] {
+            let conditions: Result<Vec<Condition>, _> = texts.iter().map(|t| t.parse()).collect();
+            let found = contradiction(&conditions.expect("conditions"));
+            assert_eq!(found.is_some(), excluded, "{texts:?}");
+        }
+    }
 }

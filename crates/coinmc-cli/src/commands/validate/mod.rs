@@ -3,8 +3,8 @@
 mod report;
 
 use super::new_file;
+use super::page::{Page, Replaceable};
 use super::question::{AnswerArgs, Unanswered, ask, write_file};
-use super::report::Page;
 use crate::command_line::this_command;
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
@@ -18,10 +18,10 @@ const EXAMPLES: &str = "\
 Examples:
   coinmc validate                                   everything, in less than a minute on two cores
   coinmc validate --only mass,kerrich --show        some of it, with the numbers of each verdict
-  coinmc validate --full --report claims.html       with many more tosses; the same command again goes on
+  coinmc validate --full --report claims.html       many more tosses; the same command goes on
 
-Verdicts: holds, holds only where …, rejected, not validated. A claim is tested at 1 %. A data set is
-predicted by one prior over tables, hands and coins, in which nothing is fitted; its p-value holds the
+Verdicts: holds, holds only where …, rejected, not validated. A claim is tested at 1 %. A data set is \
+predicted by one prior over tables, hands and coins, in which nothing is fitted; its p-value holds the \
 spread of the prior, the error of our own tosses and that of the counts.
 
 The exit status is 0 whatever the verdicts are: they are the result. 1, 2 and 130 as always.";
@@ -37,7 +37,8 @@ const OUT: &str = "runs/validate-full";
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Validate {
     /// Only these claims and data sets, by name, separated by commas
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = super::names::claims())]
+    #[arg(hide_possible_values = true)]
     only: Vec<String>,
 
     /// Many more tosses, half an hour of one core; may be stopped and goes on
@@ -75,7 +76,9 @@ impl From<ValidateError> for Unanswered {
             ValidateError::Stopped => Self::Stopped,
             ValidateError::Run(error) => Self::Failed(error.into()),
             ValidateError::Question(error) => error.into(),
-            ValidateError::Unknown { .. } => Self::Failed(Failure::Input(error.into())),
+            ValidateError::Unknown { .. } | ValidateError::OtherDirectory { .. } => {
+                Self::Failed(Failure::Input(error.into()))
+            }
             ValidateError::Config(_) | ValidateError::Key(_) => {
                 Self::Failed(Failure::Runtime(error.into()))
             }
@@ -89,7 +92,8 @@ impl Validate {
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let page = self.report.as_deref().map(|path| Page::begin(path, false));
+        let page = self.report.as_deref();
+        let page = page.map(|path| Page::begin(path, Replaceable::Nothing));
         let page = page.transpose()?;
         let csv = new_file::begin(self.csv.as_deref(), "csv")?;
         let out = self.out();

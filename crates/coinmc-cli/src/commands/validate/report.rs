@@ -1,7 +1,7 @@
 //! The verdicts as text.
 
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, grouped, in_ascii, wrapped};
+use crate::terminal::{Colors, Style, compact, grouped, in_ascii, tosses, wrapped};
 use coinmc_validate::{Checked, Evidence, Family, Line, Predicted, Validation, Verdict};
 
 /// A p-value below this is told as such.
@@ -55,8 +55,8 @@ fn of_claim(checked: &Checked, show: bool, style: &Style) -> String {
     if show && !finding.evidence.is_empty() {
         text += &of_evidence(&finding.evidence, style);
     } else if finding.tosses() > 0 {
-        let tosses = format!("{} tosses", grouped(finding.tosses()));
-        text += &format!("{:INDENT$}{}\n", "", style.paint(Colors::Faint, &tosses));
+        let made = style.paint(Colors::Faint, &tosses(finding.tosses()));
+        text += &format!("{:INDENT$}{made}\n", "");
     }
     text
 }

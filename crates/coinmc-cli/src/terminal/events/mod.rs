@@ -35,22 +35,11 @@ pub(crate) fn events(trace: &Trace, all: bool, style: &Style) -> String {
             }
         }
     }
-    let rendered = table.render(style);
-    let mut text = style.paint(Colors::Strong, &title(trace)) + "\n\n" + &rendered.text;
-    let mut notes = Vec::new();
-    if !rendered.left_out.is_empty() {
-        notes.push(format!(
-            "Too narrow to show: {}",
-            rendered.left_out.join("; ")
-        ));
-    }
+    let table = table.render(style).text;
+    let mut text = style.paint(Colors::Strong, &title(trace)) + "\n\n" + &table;
     if let Some(until) = trace.events_until_s {
         let last = compact(until);
-        notes.push(format!(
-            "Events after {last} s, except for the end, were too many to record."
-        ));
-    }
-    for note in notes {
+        let note = format!("Events after {last} s, except for the end, were too many to record.");
         text += &format!("{}\n", style.paint(Colors::Faint, &note));
     }
     text += "\n";

@@ -1,7 +1,7 @@
 //! What progress says of a run.
 
 use super::with_prefix;
-use crate::terminal::{Style, compact, decimals_for, duration, grouped};
+use crate::terminal::{Style, compact, decimals_for, duration, tosses};
 use coinmc::plan::Plan;
 use coinmc::run::{Latest, Progress as Counts};
 use std::time::Duration;
@@ -41,7 +41,7 @@ pub(super) fn message(
             3,
             Some(format!("{}/{} points", counts.points_done, counts.points)),
         ),
-        (0, Some(format!("{} tosses", grouped(counts.tosses_done)))),
+        (0, Some(tosses(counts.tosses_done))),
         (2, rate),
         (0, probability),
         (4, place),

@@ -9,7 +9,7 @@ mod totals;
 
 use super::plot::{Level, Plot, Plotted, Reference};
 use super::table::{Column, Table};
-use super::{Colors, Style, compact, count, grouped, with_interval, wrapped};
+use super::{Style, compact, count, grouped, with_interval, wrapped};
 use coinmc::engines::no_bounce_rule;
 use coinmc::results::{FairRatio, Results, Row};
 use coinmc_core::{Estimate, Face};
@@ -34,11 +34,11 @@ fn is_whole(rows: usize, style: &Style) -> bool {
     style.whole && rows <= TOO_LONG
 }
 
-/// The whole summary of the results in the file `csv`.
+/// The whole summary of the results, which are in the file `csv` if there is one.
 pub(crate) fn summary(
     results: &Results,
     fair: &[FairRatio],
-    csv: &Path,
+    csv: Option<&Path>,
     plotted: &Plotted,
     style: &Style,
 ) -> String {
@@ -67,26 +67,17 @@ pub(crate) fn markdown(results: &Results, style: &Style) -> String {
 }
 
 /// One row per point.
-fn table(results: &Results, totals: &Totals, csv: &Path, style: &Style) -> String {
+fn table(results: &Results, totals: &Totals, csv: Option<&Path>, style: &Style) -> String {
     let rows = &results.rows;
     let hidden = if rows.len() > LONG && !is_whole(rows.len(), style) {
         rows.len() - 2 * END
     } else {
         0
     };
-    let rendered = points(results, totals, style, hidden).render(style);
-    let mut text = rendered.text;
+    let mut text = points(results, totals, style, hidden).render(style).text;
     if hidden > 0 {
-        text += &format!(
-            "All {} points: {}\n",
-            grouped(rows.len() as u64),
-            csv.display()
-        );
-    }
-    if !rendered.left_out.is_empty() {
-        let note = format!("Too narrow to show: {}", rendered.left_out.join(", "));
-        let note = wrapped(&note, style.width, 4);
-        text += &format!("{}\n", style.paint(Colors::Faint, note.trim_end()));
+        let place = csv.map_or("--format csv".to_owned(), |csv| csv.display().to_string());
+        text += &format!("All {} points: {place}\n", grouped(rows.len() as u64));
     }
     text
 }
@@ -193,32 +184,32 @@ fn plot(results: &Results, face: Face, along: &str, style: &Style) -> Option<Str
     .render(style)
 }
 
-/// Undecided tosses, how tosses on the side came there, and the path of the results.
-fn closing(totals: &Totals, csv: &Path, style: &Style) -> String {
+/// Undecided tosses, how tosses on the side came there, and the path of the results, if they have one.
+fn closing(totals: &Totals, csv: Option<&Path>, style: &Style) -> String {
     let tally = &totals.tally;
-    let (tosses, undecided) = (tally.tosses(), tally.undecided());
+    let (made, undecided) = (tally.tosses(), tally.undecided());
     let mut text = String::new();
     if undecided > 0 {
         let reasons = [
             (tally.time_limit, "at the limit of time"),
             (tally.never_settles, "forever"),
-            (tally.impact_limit, "at the limit of impacts"),
+            (tally.impact_limit, "at the limit of impacts or of steps"),
             (tally.failed, "failed"),
         ];
         let reasons = reasons.iter().filter(|(count, _)| *count > 0);
         let reasons = reasons.map(|(count, reason)| format!("{} {reason}", grouped(*count)));
         let sentence = format!(
-            "Undecided: {} of {} tosses ({}): {}",
+            "Undecided: {} of {} ({}): {}",
             grouped(undecided),
-            grouped(tosses),
-            share(undecided, tosses),
+            super::tosses(made),
+            share(undecided, made),
             reasons.collect::<Vec<_>>().join(", ")
         );
         text += &wrapped(&sentence, style.width, 4);
     }
     let sentence = side_endings::sentence(tally);
     text += &sentence.map_or(String::new(), |text| wrapped(&text, style.width, 4));
-    text + &format!("Results: {}\n", csv.display())
+    text + &csv.map_or(String::new(), |csv| format!("Results: {}\n", csv.display()))
 }
 
 /// `100 %`, `12.3 %` or, of less than a hundredth, `2.5e-4`.

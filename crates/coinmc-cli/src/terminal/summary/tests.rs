@@ -46,7 +46,7 @@ fn text(results: &Results, style: &Style) -> String {
     summary(
         results,
         &fair_ratios(results, FAIR),
-        Path::new("runs/a/results.csv"),
+        Some(Path::new("runs/a/results.csv")),
         &Plotted::default(),
         style,
     )
@@ -66,6 +66,15 @@ fn a_sweep_with_two_axes() {
 fn a_single_point_is_a_table_of_one_row() {
     let text = text(&results(&sweep("1.0", "0.5"), 1.0), &Style::ascii(80));
     assert_eq!(text, include_str!("single_point.txt"), "\n{text}");
+}
+
+#[test]
+fn a_file_that_is_not_there_is_not_named() {
+    let results = results(&sweep("{ from = 0.5, to = 2.5, steps = 100 }", "0.5"), 1.0);
+    let plotted = "none".parse().unwrap();
+    let text = summary(&results, &[], None, &plotted, &Style::plain(80));
+    assert!(!text.contains("Results:"), "{text}");
+    assert!(text.contains("\nAll 100 points: --format csv\n"), "{text}");
 }
 
 #[test]
@@ -200,7 +209,7 @@ fn undecided_tosses_are_counted_by_why_not() {
     results.rows[0].tally.impact_limit = 1000;
     let text = text(&results, &Style::plain(100));
     assert!(
-        text.contains("tosses (9.12 %): 3 forever, 1 000 at the limit of impacts\n"),
+        text.contains("tosses (9.12 %): 3 forever, 1 000 at the limit of impacts or of steps\n"),
         "{text}"
     );
 }
@@ -276,7 +285,7 @@ fn another_axis_and_face_are_plotted_on_demand() {
         summary(
             &results,
             &fair,
-            csv,
+            Some(csv),
             &plotted.parse().unwrap(),
             &Style::plain(80),
         )
