@@ -35,6 +35,7 @@ mod sections;
 mod source;
 mod surface;
 mod sweep;
+mod syntax;
 mod tree;
 mod values;
 mod walk;

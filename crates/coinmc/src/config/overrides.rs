@@ -2,6 +2,7 @@
 
 use super::diagnostics::Problems;
 use super::source::{Sources, Span};
+use super::syntax::Mistake;
 use super::tree::{self, Node, Table, Value};
 use coinmc_core::schema::Value as Checked;
 use coinmc_core::{Coin, Preset, Surface};
@@ -122,15 +123,18 @@ impl Override {
                 lay_out(root, &path);
                 root.set(&path, node);
             }
-            Err((span, message)) => problems.add_with_help(
+            Err(Mistake {
                 span,
                 message,
-                "a number, a list [1, 2], a range {from = 0, to = 1, steps = 5}, true, or a word",
-            ),
+                help,
+            }) => {
+                let any = "a number, a list [1, 2], a range {from = 0, to = 1, steps = 5}, true, or a word";
+                problems.add_with_help(span, message, help.as_deref().unwrap_or(any));
+            }
         }
     }
 
-    fn node(&self, sources: &Sources, source: usize) -> Result<Node, (Span, String)> {
+    fn node(&self, sources: &Sources, source: usize) -> Result<Node, Mistake> {
         let text = &self.text[self.value.clone()];
         tree::value(sources, source, self.value.start, text).or_else(|error| {
             if is_word(text) {

@@ -2,6 +2,7 @@
 
 use super::diagnostics::Problems;
 use super::source::{Sources, Span};
+use super::syntax::{Mistake, help, mistakes};
 use toml::de::{DeFloat, DeInteger, DeTable, DeValue};
 
 /// A value and its location.
@@ -145,8 +146,8 @@ impl Table {
     }
 }
 
-/// Reads the text of a source as TOML. A syntax error is one problem at its location; duplicate
-/// keys are reported and the first of each is kept.
+/// Reads the text of a source as TOML. [Mistakes](mistakes) of syntax are told at once, and nothing else then;
+/// duplicate keys are reported and the first of each is kept.
 pub(super) fn document(
     sources: &Sources,
     source: usize,
@@ -164,15 +165,14 @@ pub(super) fn document(
         }
     };
     // The message of the TOML crate identifies the errors after which parsing can continue.
-    let (duplicates, mut fatal): (Vec<_>, Vec<_>) = errors
+    let (duplicates, fatal): (Vec<_>, Vec<_>) = errors
         .iter()
         .partition(|error| error.message() == "duplicate key");
-    fatal.sort_by_key(|error| place(error));
-    if let Some(first) = fatal.first() {
-        problems.add(
-            place(first),
-            format!("this is no TOML: {}", first.message()),
-        );
+    if !fatal.is_empty() {
+        let fatal = fatal.iter().map(|error| (place(error), error.message()));
+        for mistake in mistakes(sources, fatal.collect()) {
+            problems.push(mistake.span, mistake.message, mistake.help);
+        }
         return None;
     }
     for error in duplicates {
@@ -189,7 +189,7 @@ pub(super) fn value(
     source: usize,
     offset: usize,
     text: &str,
-) -> Result<Node, (Span, String)> {
+) -> Result<Node, Mistake> {
     match DeValue::parse(text) {
         Ok(value) => {
             let span = value.span();
@@ -201,12 +201,20 @@ pub(super) fn value(
         }
         Err(_) if text.trim().is_empty() => {
             let span = sources.span(source, offset..offset + text.len());
-            Err((span, "there is no value after `=`".to_owned()))
+            Err(Mistake {
+                span,
+                message: "there is no value after `=`".to_owned(),
+                help: None,
+            })
         }
         Err(error) => {
             let range = error.span().unwrap_or(0..text.len());
             let span = sources.span(source, range.start + offset..range.end + offset);
-            Err((span, format!("this is no TOML value: {}", error.message())))
+            Err(Mistake {
+                span,
+                message: format!("this is no TOML value: {}", error.message()),
+                help: help(text),
+            })
         }
     }
 }

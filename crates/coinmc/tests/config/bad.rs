@@ -399,3 +399,21 @@ fn tables_of_measurements_are_told_from_mistyped_ones() {
     }
     assert!(helps("[priro]")[0].starts_with("allowed: "));
 }
+
+/// What beginners write instead of TOML is told at once, each with how to write it, and once a line.
+#[test]
+fn mistakes_of_syntax_are_told_at_once() {
+    let text = "[coin]\nratio = 0,5\nradius_m = 1cm\n[surface]\nrestitution = .5\nfriction = 0.3\n[launch]\npreset = robot\n\
+                [engine.flat]\n[stop]\ntosses = 1000\n";
+    let found = config::parse("bad.toml", text, &[]).unwrap_err();
+    let told = found.problems().iter().map(|problem| {
+        let help = problem.help.as_deref().unwrap_or_default();
+        (problem.line, help.to_owned())
+    });
+    let told: Vec<(usize, String)> = told.collect();
+    let expected = [(2, "`0.5`"), (3, "unit"), (5, "`0.5`"), (8, "`\"robot\"`")];
+    assert_eq!(told.len(), expected.len(), "{found}");
+    for ((line, help), (expected, words)) in told.iter().zip(expected) {
+        assert!(*line == expected && help.contains(words), "{found}");
+    }
+}
