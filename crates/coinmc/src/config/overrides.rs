@@ -1,6 +1,7 @@
 //! `--set key.path=value`.
 
 use super::diagnostics::Problems;
+use super::schema::{self, Kind};
 use super::source::{Sources, Span};
 use super::syntax::Mistake;
 use super::tree::{self, Node, Table, Value};
@@ -173,8 +174,23 @@ fn lay_out(root: &mut Table, path: &[(String, Span)]) {
     }
 }
 
-/// Keys that say the same as this one.
+/// Keys that say the same as this one, or of which this one takes the place.
 fn same_as(table: &str, key: &str) -> Vec<&'static str> {
+    /// A number of tosses excludes targets, and whatever belongs to those.
+    const TARGETS: [&str; 3] = ["half_width", "relative_error", "events"];
+    if table == "stop" && key == "tosses" {
+        let stop = schema::root()
+            .fields
+            .into_iter()
+            .find(|field| field.name == "stop");
+        let Some(Kind::Table(stop)) = stop.map(|field| field.kind) else {
+            return vec![];
+        };
+        return stop.fields.into_iter().map(|field| field.name).collect();
+    }
+    if table == "stop" && TARGETS.contains(&key) {
+        return vec!["tosses"];
+    }
     let names = |keys: &[(&'static str, f64)]| keys.iter().map(|(key, _)| *key).collect();
     let mut heights: Vec<&'static str> = names(&Coin::HEIGHTS);
     heights.push("ratio");

@@ -458,3 +458,19 @@ fn laws_of_impact_with_quantities_reach_the_engine() {
         })
     );
 }
+
+/// `--set` with a number of tosses takes the place of targets and of all that belongs to them, and the other way round.
+#[test]
+fn an_option_for_when_to_stop_replaces_the_other_way() {
+    let targets = SMALL.replace(
+        "tosses = 1000",
+        "half_width = 0.01\nface = 'side'\nmax_tosses = 1e6",
+    );
+    let plan = parse(&targets, &["stop.tosses=500"]);
+    assert_eq!(plan.stop, Stop::Tosses(500));
+    let plan = parse(SMALL, &["stop.half_width=0.02", "stop.face=heads"]);
+    let Stop::Targets(targets) = plan.stop else {
+        panic!("{:?}", plan.stop);
+    };
+    assert_eq!(targets.half_width, Some(0.02));
+}
