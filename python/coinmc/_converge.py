@@ -47,9 +47,10 @@ class Convergence(ArrowTable):
         """Columns by name.
 
         ``point`` and its swept parameters; for each face ``p_<face>``, its probability with the
-        settings of the config, with ``p_<face>_lo`` and ``p_<face>_hi``, ``shift_<face>``, P with tight settings minus that, with its
-        interval ``shift_<face>_lo`` and ``shift_<face>_hi``, and ``biased_<face>``, whether that
-        excludes 0, all points and faces together; ``changed``, tosses that end on another face;
+        settings of the config, with ``p_<face>_lo`` and ``p_<face>_hi``; ``shift_<face>``, P with
+        tight settings minus that, with its interval ``shift_<face>_lo`` and ``shift_<face>_hi``,
+        and ``biased_<face>``, whether that excludes 0, all points and faces together; ``changed``,
+        tosses that end on another face;
         ``undecided`` and ``undecided_tight``; ``tosses`` with either settings.
         """
         return self._columns

@@ -75,8 +75,8 @@ class Fair:
     near : list of tuple of float
         Stretches on which the probability cannot be told from the target, without a crossing seen.
     scan : dict of str to ndarray
-        The coarse scan of the whole range: ``value``, ``p`` with its interval ``lo`` and ``hi``, and
-        ``tosses`` (of all curves).
+        The coarse scan of the whole range: ``value``, ``p`` with its interval ``lo`` to ``hi``,
+        and ``tosses`` (of all curves).
     assumptions : list of dict
         For everyday scenes: what each assumes (``parameter``, ``name``, ``value``, ``source``),
         from where to where it may be (``low``, ``high``), and about where the first root would

@@ -19,11 +19,11 @@ pub(crate) struct AskedAtlas<'py> {
 
 impl AskedAtlas<'_> {
     /// A row of numbers for each coin and surface.
-    fn answers<'py, const N: usize>(
+    fn answers<const N: usize>(
         self,
-        py: Python<'py>,
+        py: Python<'_>,
         answer: impl Fn(&Atlas, &Place) -> Result<[f64; N], AtlasError> + Send + 'static,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    ) -> PyResult<Bound<'_, PyArray2<f64>>> {
         let launch: Launch = self.launch.parse().map_err(errors::value)?;
         let material: Material = self.material.parse().map_err(errors::value)?;
         let (rows, keys) = (self.rows.as_array().to_owned(), self.keys);

@@ -39,21 +39,23 @@ const fn loaded(ratio: f64, centre: f64, restitution: f64, length: f64) -> Unlik
     }
 }
 
-const DRAFTED: [Unlike; 6] = [
+const DRAFTED: [Unlike; 7] = [
     drafted(0.85, 10.0, 0.5, 0.01),
     drafted(0.85, -10.0, 0.5, 0.01),
     drafted(0.85, 10.0, 0.0, 0.01),
     drafted(0.85, 15.0, 0.5, 0.003),
     drafted(0.25, 3.0, 0.5, 0.01),
     drafted(2.0, 8.0, 0.5, 0.01),
+    drafted(0.6, 7.0, 0.5, 0.01),
 ];
 
-const LOADED: [Unlike; 5] = [
+const LOADED: [Unlike; 6] = [
     loaded(0.85, 0.2, 0.5, 0.01),
     loaded(0.85, -0.2, 0.5, 0.01),
     loaded(0.85, 0.1, 0.0, 0.003),
     loaded(0.25, 0.25, 0.5, 0.01),
     loaded(2.0, 0.15, 0.5, 0.01),
+    loaded(0.6, 0.15, 0.5, 0.01),
 ];
 
 /// The study's arguments.

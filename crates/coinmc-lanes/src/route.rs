@@ -79,7 +79,7 @@ impl Route {
     }
 
     /// Source and target of each copied lane.
-    #[cfg(any(not(target_arch = "x86_64"), debug_assertions, test))]
+    #[cfg(any(not(target_arch = "x86_64"), debug_assertions))]
     #[inline(always)]
     pub(crate) fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
         let sources = self.sources;

@@ -319,17 +319,15 @@ mod tests {
             row: &row,
         }];
         let found = compare([48, 47, 5], &models, 0.95).expect("an answer");
-        for (face, share) in Face::ALL.into_iter().zip([0.48, 0.47, 0.05]) {
+        for (face, (share, count)) in
+            Face::ALL
+                .into_iter()
+                .zip([(0.48, 480), (0.47, 470), (0.05, 50)])
+        {
             let Estimate { p, lo, hi, n, .. } = found.models[0].estimate(face);
             assert!((p - share).abs() < 1e-12 && lo < p && p < hi && n == 1_000);
             // no narrower than the interval of 1,000 tosses, and not by half wider
-            let own = Estimate::new(
-                (share * 1e3) as u64,
-                0,
-                1_000,
-                0.95,
-                coinmc_core::IntervalMethod::Wilson,
-            );
+            let own = Estimate::new(count, 0, 1_000, 0.95, IntervalMethod::Wilson);
             let wider = (hi - lo) / (own.hi - own.lo);
             assert!((0.99..1.5).contains(&wider), "{wider}");
             let told = &document_of_comparison(&found, None)["rows"][0]["model"][face.name()]["p"];
