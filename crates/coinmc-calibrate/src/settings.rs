@@ -49,29 +49,36 @@ pub struct OutOfRange {
 impl Settings {
     /// All numbers that are out of range, at once.
     pub(crate) fn check(&self) -> Result<(), CalibrationError> {
-        let ranges = [
-            (
+        let number = |name, what, given, least, most| OutOfRange {
+            name,
+            what,
+            least,
+            most,
+            given,
+        };
+        let numbers = [
+            number(
                 "points",
                 "the surfaces of the design",
                 self.points,
                 32,
                 1 << 16,
             ),
-            (
+            number(
                 "tosses",
                 "the tosses at each surface",
                 self.tosses,
                 2,
                 1 << 20,
             ),
-            (
+            number(
                 "draws",
                 "the draws of the posterior",
                 self.draws,
                 100,
                 1_000_000,
             ),
-            (
+            number(
                 "predicted",
                 "the tosses of the prediction",
                 self.predicted,
@@ -79,17 +86,9 @@ impl Settings {
                 1 << 32,
             ),
         ];
-        let beyond =
-            |(_, _, given, least, most): &(_, _, u64, u64, u64)| given < least || given > most;
-        let found = ranges.into_iter().filter(beyond);
+        let found = numbers.into_iter();
         let found: Vec<_> = found
-            .map(|(name, what, given, least, most)| OutOfRange {
-                name,
-                what,
-                least,
-                most,
-                given,
-            })
+            .filter(|number| !(number.least..=number.most).contains(&number.given))
             .collect();
         if found.is_empty() {
             Ok(())
