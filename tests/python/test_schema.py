@@ -84,7 +84,7 @@ BAD = [
     ("engine", {"volumetric": {"energy_fraction": 0.01}}),
     ("engine.rapier", {}),
     ("stop.tosses", 0),
-    ("stop.half_width", 0.01),
+    ("stop", {"tosses": 1000, "half_width": 0.01}),
     ("estimate.confidence", 1.0),
 ]
 
