@@ -60,7 +60,7 @@ pub(crate) fn refuse(model: &Model) -> Result<Vec<Conflict>, CalibrationError> {
     let weights = vec![1.0 / POINTS as f64; prior.len()];
     let terms = model.observed.places.len();
     let mut conflicts = vec![];
-    let mut problems: Option<Diagnostics> = None;
+    let mut problems = vec![];
     for term in 0..terms {
         let p_value = p_value(model, term, (&prior, &weights));
         if p_value < REFUSED {
@@ -76,16 +76,15 @@ pub(crate) fn refuse(model: &Model) -> Result<Vec<Conflict>, CalibrationError> {
             );
             let help = "check the reading, its unit and its error, or widen the prior in [prior]";
             let place = &model.observed.places[term];
-            let problem = place.problem(message, Some(help.to_owned()));
-            problems = Some(match problems {
-                Some(found) => found.and(problem),
-                None => problem,
-            });
+            problems.push(place.problem(message, Some(help.to_owned())));
             continue;
         }
         conflicts.extend(conflict(model, term, p_value, false));
     }
-    problems.map_or(Ok(conflicts), |problems| Err(problems.into()))
+    match problems.into_iter().reduce(Diagnostics::and) {
+        Some(problems) => Err(problems.into()),
+        None => Ok(conflicts),
+    }
 }
 
 /// Measurements that all others together hardly allow: each is left out once.

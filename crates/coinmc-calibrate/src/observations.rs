@@ -126,21 +126,16 @@ impl Observations {
         };
         let mut reading_places = vec![];
         let mut seen = vec![];
-        let mut problems: Option<Diagnostics> = None;
+        let mut problems = vec![];
         for entry in entries {
             let number = entry.content.kind().map_or(0, |kind| {
                 seen.push(kind);
                 seen.iter().filter(|other| **other == kind).count()
             });
             let added = observed.add(entry, number, &parameters, folder, &mut reading_places);
-            if let Err(more) = added {
-                problems = Some(match problems {
-                    Some(found) => found.and(more),
-                    None => more,
-                });
-            }
+            problems.extend(added.err());
         }
-        if let Some(problems) = problems {
+        if let Some(problems) = problems.into_iter().reduce(Diagnostics::and) {
             return Err(problems.into());
         }
         observed.places.extend(reading_places);

@@ -30,7 +30,7 @@ mod writer;
 pub use compression::{Compression, UnknownCompression};
 pub use encoding::{Encoding, UnknownEncoding};
 pub use error::Error;
-pub use new_file::NewFile;
+pub use new_file::{NewFile, sync_directory};
 pub use protobuf::SchemaError;
 pub use recorder::{Channel, Recorder};
 pub use recover::{Recovered, recover, salvage};

@@ -137,8 +137,21 @@ fn temporary(path: &Path, attempt: u32) -> PathBuf {
     name.into()
 }
 
-/// Makes the new name survive a loss of power.
-fn sync_directory(path: &Path) -> Result<(), Error> {
+/// Makes a new name of a file survive a loss of power.
+///
+/// # Errors
+/// [`Error::Io`] if its directory cannot be synced.
+///
+/// # Example
+/// ```
+/// let dir = tempfile::tempdir().unwrap();
+/// let (old, new) = (dir.path().join("a"), dir.path().join("b"));
+/// std::fs::write(&old, "text").unwrap();
+/// std::fs::rename(&old, &new).unwrap();
+/// coinmc_recording::sync_directory(&new)?;
+/// # Ok::<(), coinmc_recording::Error>(())
+/// ```
+pub fn sync_directory(path: &Path) -> Result<(), Error> {
     // Other systems cannot open a directory like a file, and journal names anyway.
     if cfg!(unix) {
         let parent = match path.parent() {

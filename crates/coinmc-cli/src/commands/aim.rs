@@ -4,9 +4,8 @@ use super::new_file;
 use super::question::{AnswerArgs, KeyRange, SceneArgs, ask, range_and_count, write_file};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
-use crate::terminal::in_ascii;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, decimals_for, decimals_that_show, grouped};
+use crate::terminal::{Colors, Style, compact, four_decimals_for, grouped, in_ascii};
 use anyhow::anyhow;
 use clap::Args;
 use coinmc_core::{Estimate, Face};
@@ -105,7 +104,7 @@ impl AimAt {
             return Ok(Outcome::Interrupted);
         };
         if let Some(file) = picture {
-            write_file(file, &questions::picture(&answer))?;
+            write_file(file, questions::picture(&answer))?;
         }
         match console.format() {
             Format::Json => output::print_json(&questions::document_of_aim(&answer)),
@@ -141,8 +140,7 @@ fn text(answer: &Aimed, style: &Style) -> String {
     let mut row = |name: String, values: &[f64], estimate: &Estimate| {
         let mut cells = vec![name];
         cells.extend(values.iter().map(|value| compact(*value)));
-        let arm = estimate.half_width();
-        let decimals = decimals_that_show(arm, decimals_for(arm).min(4));
+        let decimals = four_decimals_for(estimate.half_width());
         cells.push(format!("{:.decimals$}", estimate.p));
         cells.push(format!(
             "[{:.decimals$}, {:.decimals$}]",

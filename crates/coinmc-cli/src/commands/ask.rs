@@ -5,9 +5,10 @@ use super::quantity::Length;
 use super::question::{AnswerArgs, ask};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
-use crate::terminal::in_ascii;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, decimals_for, decimals_that_show, grouped};
+use crate::terminal::{
+    Colors, Style, compact, decimals_that_show, four_decimals_for, grouped, in_ascii,
+};
 use anyhow::anyhow;
 use clap::Args;
 use coinmc::plan::MAX_TOSSES;
@@ -237,8 +238,7 @@ fn text(answer: &Answer, atlas: &Atlas, style: &Style) -> String {
 }
 
 fn probability(p: f64, lo: f64, hi: f64) -> [String; 2] {
-    let arm = 0.5 * (hi - lo);
-    let decimals = decimals_that_show(arm, decimals_for(arm).min(4));
+    let decimals = four_decimals_for(0.5 * (hi - lo));
     [
         format!("{p:.decimals$}"),
         format!("[{lo:.decimals$}, {hi:.decimals$}]"),

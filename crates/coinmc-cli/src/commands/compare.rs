@@ -207,9 +207,7 @@ impl Compare {
 
 /// A remark of the program with the run that it is about.
 fn of_run(name: &str, remark: &str) -> String {
-    const PROGRAM: &str = "coinmc: ";
-    let words = remark.strip_prefix(PROGRAM).unwrap_or(remark);
-    format!("{PROGRAM}{name}: {words}")
+    format!("coinmc: {name}: {remark}")
 }
 
 fn table(
@@ -415,7 +413,7 @@ mod tests {
     #[test]
     fn a_remark_names_its_run() {
         assert_eq!(
-            of_run("r1", "coinmc: this run is unfinished"),
+            of_run("r1", "this run is unfinished"),
             "coinmc: r1: this run is unfinished"
         );
     }

@@ -3,8 +3,6 @@
 use crate::exit::Failure;
 use anyhow::anyhow;
 use coinmc_recording::NewFile;
-use std::fs::File;
-use std::io;
 use std::path::Path;
 
 /// Begins the file that was asked for, if one was: of the format that its name ends in.
@@ -26,18 +24,6 @@ pub(super) fn must_end_in(path: &Path, ending: &str) -> Result<(), Failure> {
         "{}: the name must end in .{ending}, the format that is written",
         path.display()
     )))
-}
-
-/// Makes a new name of a file survive a loss of power.
-pub(super) fn sync_directory(path: &Path) -> io::Result<()> {
-    // other systems cannot open a directory like a file, and journal names anyway
-    if cfg!(unix) {
-        let parent = path
-            .parent()
-            .filter(|parent| !parent.as_os_str().is_empty());
-        File::open(parent.unwrap_or(Path::new(".")))?.sync_all()?;
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! Pages, which appear when they are complete and replace no file but those that they may.
 
-use super::new_file::{must_end_in, sync_directory};
+use super::new_file::must_end_in;
 use super::question::write_file;
 use crate::exit::Failure;
 use anyhow::{Context, anyhow};
-use coinmc_recording::NewFile;
+use coinmc_recording::{NewFile, sync_directory};
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -71,9 +71,9 @@ impl Page {
         };
         let replaced = self.replaceable.check(&self.path).and_then(|()| {
             fs::rename(&beside, &self.path)
-                .and_then(|()| sync_directory(&self.path))
                 .with_context(|| format!("cannot replace {}", self.path.display()))
-                .map_err(Failure::Runtime)
+                .map_err(Failure::Runtime)?;
+            Ok(sync_directory(&self.path)?)
         });
         if replaced.is_err() {
             // a leftover does no harm

@@ -194,8 +194,8 @@ pub(super) fn ask<T, E: Into<Unanswered>>(
 }
 
 /// Writes a new file that was begun.
-pub(super) fn write_file(mut file: NewFile, text: &str) -> Result<(), Failure> {
-    let written = file.write_all(text.as_bytes());
+pub(super) fn write_file(mut file: NewFile, content: impl AsRef<[u8]>) -> Result<(), Failure> {
+    let written = file.write_all(content.as_ref());
     written
         .and_then(|()| file.flush())
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;

@@ -287,7 +287,7 @@ fn integrated_line(report: &Report, evaluations: u64) -> String {
 }
 
 /// What is said of a complete part of a run.
-pub(super) const PART_IS_COMPLETE: &str = "coinmc: this part is complete; when all are, merge them with \
+pub(super) const PART_IS_COMPLETE: &str = "this part is complete; when all are, merge them with \
      `coinmc merge PART… --out WHOLE`";
 
 /// What the user can do next, if the run is not complete.
@@ -302,7 +302,7 @@ fn advice(report: &Report, out: &Path) -> Option<String> {
             out.display(),
             this_command()
         )),
-        Status::Part => Some(PART_IS_COMPLETE.to_owned()),
+        Status::Part => Some(format!("coinmc: {PART_IS_COMPLETE}")),
         Status::ShortOfTarget { .. } => Some(short_of_target(&report.results.rows)),
     }
 }

@@ -68,9 +68,7 @@ impl Status {
         }
         Err(several(failures.into_iter()))
     }
-}
 
-impl Status {
     /// A row for every run directory, and what is wrong with the others.
     fn rows(&self, sink: &dyn ProgressSink) -> (Vec<Row>, Vec<Failure>) {
         let (mut rows, mut failures) = (Vec::new(), Vec::new());

@@ -15,7 +15,8 @@ pub(crate) use ascii::in_ascii;
 pub(crate) use coinmc_questions::number::{compact, grouped};
 pub(crate) use harmless::harmless;
 pub(crate) use number::{
-    count, decimals_for, decimals_that_show, duration, signed, tosses, with_interval,
+    count, decimals_for, decimals_that_show, duration, four_decimals_for, signed, tosses,
+    with_interval,
 };
 pub(crate) use style::{Colors, Style};
 pub(crate) use wrap::wrapped;

@@ -49,6 +49,11 @@ pub(crate) fn decimals_that_show(error: f64, decimals: usize) -> usize {
     (decimals..MOST).find(shows).unwrap_or(MOST)
 }
 
+/// As [`decimals_for`] an error, but four at most if these show it.
+pub(crate) fn four_decimals_for(error: f64) -> usize {
+    decimals_that_show(error, decimals_for(error).min(4))
+}
+
 /// `0.250 ± 0.007`, or the interval, `0.000 [0.000, 0.793]`, where that arm would leave 0 to 1; with more decimals where
 /// the arm would read 0.
 pub(crate) fn with_interval(p: &Estimate, decimals: usize, plus_minus: &str) -> String {

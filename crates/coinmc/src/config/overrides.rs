@@ -176,8 +176,7 @@ fn lay_out(root: &mut Table, path: &[(String, Span)]) {
 
 /// Keys that say the same as this one, or of which this one takes the place.
 fn same_as(table: &str, key: &str) -> Vec<&'static str> {
-    /// A number of tosses excludes targets, and whatever belongs to those.
-    const TARGETS: [&str; 3] = ["half_width", "relative_error", "events"];
+    // a number of tosses excludes targets, and whatever belongs to those
     if table == "stop" && key == "tosses" {
         let stop = schema::root()
             .fields
@@ -188,7 +187,7 @@ fn same_as(table: &str, key: &str) -> Vec<&'static str> {
         };
         return stop.fields.into_iter().map(|field| field.name).collect();
     }
-    if table == "stop" && TARGETS.contains(&key) {
+    if table == "stop" && schema::TARGETS.contains(&key) {
         return vec!["tosses"];
     }
     let names = |keys: &[(&'static str, f64)]| keys.iter().map(|(key, _)| *key).collect();

@@ -120,9 +120,9 @@ fn scanned_p(scanned: &Scanned) -> String {
     }
 }
 
-fn by_tosses(tosses: u64) -> String {
-    if tosses > 0 {
-        format!(" ({} tosses)", grouped(tosses))
+fn by_tosses(n: u64) -> String {
+    if n > 0 {
+        format!(" ({})", tosses(n))
     } else {
         String::new()
     }

@@ -5,7 +5,7 @@ use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use coinmc_film::text::{self, AngleOf, Choice, Diagnostics, Footage};
 use coinmc_recording::NewFile;
-use std::io::{ErrorKind, Write};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Meaning and units of the columns.
@@ -144,14 +144,6 @@ pub(super) fn begin_new<'a>(
     Ok(begun.into_iter().map(|(_, file)| file).collect())
 }
 
-/// Writes a file that was begun.
-pub(super) fn write(mut file: NewFile, bytes: &[u8]) -> Result<(), Failure> {
-    let written = file.write_all(bytes);
-    written.map_err(|error| Failure::Runtime(anyhow!(error)))?;
-    file.finish()?;
-    Ok(())
-}
-
 fn two_tracks(text: &str) -> Result<(String, String), String> {
     match text.split_once(',') {
         Some((first, second)) if !first.trim().is_empty() && !second.trim().is_empty() => {
@@ -164,6 +156,7 @@ fn two_tracks(text: &str) -> Result<(String, String), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::commands::question::write_file;
 
     #[test]
     fn a_file_appears_when_it_is_complete_and_replaces_none() {
@@ -172,7 +165,7 @@ mod tests {
         let mut begun = begin_new([&path]).expect("a new file");
         // a process that is killed now leaves nothing that has the name
         assert!(!path.exists());
-        write(begun.remove(0), b"{}").expect("written");
+        write_file(begun.remove(0), b"{}").expect("written");
         assert_eq!(std::fs::read(&path).expect("the file"), b"{}");
         assert!(begin_new([&path]).is_err());
         let other = dir.path().join("other.csv");

@@ -1,6 +1,7 @@
 //! `coinmc film fit`: fitting laws to drops.
 
-use super::files::{self, Columns, begin_new};
+use super::super::question::write_file;
+use super::files::{Columns, begin_new};
 use super::law::LawName;
 use super::report;
 use super::scene::SceneArguments;
@@ -174,7 +175,7 @@ impl Fit {
         });
         let texts = self.out.iter().map(|_| fit()).chain(residuals);
         for (file, text) in files.into_iter().zip(texts) {
-            files::write(file, text.as_bytes())?;
+            write_file(file, text)?;
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! `coinmc film synthesise`: a simulated film, in Tracker's text format.
 
-use super::files::{self, Direction, begin_new};
+use super::super::question::write_file;
+use super::files::Direction;
 use super::law::LawName;
 use super::scene::SceneArguments;
 use crate::exit::{Failure, Outcome};
@@ -9,6 +10,7 @@ use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use coinmc_film::Synthetic;
 use coinmc_film::text::{Delimiter, Dialect, write};
+use coinmc_recording::NewFile;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -93,7 +95,7 @@ impl Synthesise {
 
     pub(super) fn execute(&self, _: &Console) -> Result<Outcome, Failure> {
         self.check()?;
-        let files = begin_new([&self.file])?;
+        let file = NewFile::begin(&self.file)?;
         let (model, shared) = self.scene.model(self.law)?;
         let mut start = [0.0; 6];
         start.copy_from_slice(&self.start);
@@ -121,9 +123,7 @@ impl Synthesise {
             ..Dialect::default()
         };
         let bytes = write(&drop, "coin", self.angle_of.into(), &dialect, Some(5));
-        for file in files {
-            files::write(file, &bytes)?;
-        }
+        write_file(file, &bytes)?;
         let printed = match self.format {
             Format::Json => output::print_json(&json!({
                 "format_version": FORMAT_VERSION,

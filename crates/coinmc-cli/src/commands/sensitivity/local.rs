@@ -3,8 +3,7 @@
 use super::Fair;
 use crate::output::FORMAT_VERSION;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, decimals_for, decimals_that_show, grouped};
-use crate::terminal::{in_ascii, signed};
+use crate::terminal::{Colors, Style, compact, four_decimals_for, grouped, in_ascii, signed};
 use coinmc_core::Face;
 use coinmc_questions::sensitivity::{Sensitivity, Steps, sensitivities};
 use coinmc_questions::{Interval, QuestionError, Workers};
@@ -128,8 +127,7 @@ fn most_undecided(one: &Sensitivity) -> u64 {
 
 /// A derivative and its interval as cells.
 fn shown(derivative: Interval) -> [String; 2] {
-    let arm = derivative.half_width();
-    let decimals = decimals_that_show(arm, decimals_for(arm).min(4));
+    let decimals = four_decimals_for(derivative.half_width());
     [
         signed(derivative.value, decimals),
         format!(

@@ -126,7 +126,7 @@ impl SensitivityOf {
             write_file(file, svg)?;
         }
         if let Some(file) = csv {
-            write_file(file, &questions::csv_of_rows(&answer.document))?;
+            write_file(file, questions::csv_of_rows(&answer.document))?;
         }
         match console.format() {
             Format::Json => output::print_json(&answer.document),

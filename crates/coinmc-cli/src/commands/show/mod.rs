@@ -80,7 +80,7 @@ impl Show {
             }
         }
         if let Some(remark) = unfinished(&report) {
-            output::note(&remark);
+            output::note(&format!("coinmc: {remark}"));
         }
         Ok(Outcome::Done)
     }
@@ -118,7 +118,7 @@ fn printed(document: &Value) -> Result<(), Failure> {
     printed.map_err(|error| Failure::Runtime(error.into()))
 }
 
-/// What is missing of a run, if something is.
+/// What is missing of a run, if something is, in words.
 pub(super) fn unfinished(report: &Report) -> Option<String> {
     let word = match report.status {
         Status::Complete => return None,
@@ -128,7 +128,5 @@ pub(super) fn unfinished(report: &Report) -> Option<String> {
     };
     let done = report.points_reached();
     let all = count(report.results.rows.len() as u64, "point");
-    Some(format!(
-        "coinmc: this run is {word}: {done} of {all} finished"
-    ))
+    Some(format!("this run is {word}: {done} of {all} finished"))
 }

@@ -118,7 +118,7 @@ impl MapOf {
         let Some(made) = made else {
             return Ok(Outcome::Interrupted);
         };
-        write_file(file, &map(&plan, &made))?;
+        write_file(file, map(&plan, &made))?;
         self.tell(pixels, console)
     }
 

@@ -122,7 +122,7 @@ impl Validate {
             page.write(&coinmc_report::claims(&document))?;
         }
         if let Some(file) = csv {
-            write_file(file, &csv_of_rows(&validation::flat_rows(&document)))?;
+            write_file(file, csv_of_rows(&validation::flat_rows(&document)))?;
         }
         self.present(&found, &document, console)
     }

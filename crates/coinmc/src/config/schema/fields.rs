@@ -214,11 +214,14 @@ fn stop() -> TableKind {
     }
 }
 
+/// Keys of `[stop]` that each are a target, in place of a number of tosses.
+pub(in crate::config) const TARGETS: [&str; 3] = ["half_width", "relative_error", "events"];
+
 /// Tosses or targets, and what goes with targets.
 fn rules_of_stop() -> Vec<Rule> {
     let goes_with_targets = |key| Rule::GoesWith {
         key,
-        others: &["half_width", "relative_error", "events"],
+        others: &TARGETS,
         fallback: None,
     };
     vec![
@@ -236,7 +239,7 @@ fn rules_of_stop() -> Vec<Rule> {
         Rule::NotBoth(["tosses", "events"]),
         Rule::GoesWith {
             key: "max_tosses",
-            others: &["half_width", "relative_error", "events"],
+            others: &TARGETS,
             fallback: Some(Fallback::Integer(100_000_000)),
         },
         goes_with_targets("face"),

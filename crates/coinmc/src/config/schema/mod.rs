@@ -7,5 +7,5 @@ mod json;
 pub(super) use coinmc_core::schema::{
     Absent, Bounds, Condition, Fallback, Field, Kind, Rule, TableKind, Whole, Word,
 };
-pub(super) use fields::{range, root};
+pub(super) use fields::{TARGETS, range, root};
 pub(super) use json::json_schema;
