@@ -19,6 +19,15 @@ use crate::motion::{Motion, Spin};
 use crate::transition::Transition;
 use coinmc_core::{EventKind, Observer};
 
+/// Which rims of a coin on its side stay down at a node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Down {
+    Nothing,
+    Own,
+    Other,
+    Both,
+}
+
 impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// Puts both rims down. What is lost of the energy is that of rocking which the ground
     /// outweighs.
@@ -127,8 +136,6 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         slopes: [[f64; 2]; 2],
         ahead: [f64; 2],
     ) -> Next {
-        let dynamics = &self.model.dynamics;
-        let body = &dynamics.body;
         let old = self.tracks;
         let state = self.descend_on_both(state, slopes, old.interval);
         self.place_on_tracks(&state);
@@ -142,42 +149,56 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let new = &self.tracks;
         let time = 0.5 * (old.interval + new.interval);
         let bends = [new.own.rate - old.own.rate, new.other.rate - old.other.rate];
-        let lean = (new.other.height - new.own.height) / (2.0 * body.half);
+        let bend = match self.down_at(&state, bends, time, ahead) {
+            Down::Nothing => return Next::Goes(Touch::Nothing),
+            Down::Both => {
+                self.place_on_tracks(&state);
+                self.balance();
+                return Next::Goes(Touch::Both);
+            }
+            Down::Own => bends[0],
+            Down::Other => {
+                self.switch_rim();
+                bends[1]
+            }
+        };
+        self.follow_bend(bend, 1.0, time)
+    }
+
+    /// What the normal forces keep down of a coin on both rims at a node, where the rates of the tracks grow by
+    /// `bends` within `time`.
+    fn down_at(&self, state: &LineState, bends: [f64; 2], time: f64, ahead: [f64; 2]) -> Down {
+        let dynamics = &self.model.dynamics;
+        let body = &dynamics.body;
+        let (own, other) = (&self.tracks.own, &self.tracks.other);
+        let lean = (other.height - own.height) / (2.0 * body.half);
         let tilting = (bends[0] - bends[1]) / (2.0 * body.half * time);
         let normal = 1.0 + 0.5 * (bends[0] + bends[1]) / time;
-        let [_, vy, wa, wz] = state;
+        let [_, vy, wa, wz] = *state;
         let mut along = line_rates_on::<true>(
             dynamics,
-            &state,
+            state,
             self.model.contact_rules().stick_speed,
             ahead,
         )
         .rates[0]
             - wz * vy;
-        if self.holds_across(&state) {
+        if self.holds_across(state) {
             along -= self.pull()[0];
         }
         let gyroscopic = -wz * dynamics.axial_factor * wa;
         let moment = body.kt * (tilting - gyroscopic)
             + body.radius * lean * normal
             + body.outer_radius() * (along + body.outer_radius() * tilting);
-        let most = body.half * normal;
         if normal <= 0.0 {
-            return Next::Goes(Touch::Nothing);
-        }
-        if moment.abs() <= most {
-            self.place_on_tracks(&state);
-            self.balance();
-            return Next::Goes(Touch::Both);
-        }
-        // the rim that is pressed onto the ground keeps contact
-        let bend = if moment > 0.0 {
-            bends[0]
+            Down::Nothing
+        } else if moment.abs() <= body.half * normal {
+            Down::Both
+        } else if moment > 0.0 {
+            Down::Own
         } else {
-            self.switch_rim();
-            bends[1]
-        };
-        self.follow_bend(bend, 1.0, time)
+            Down::Other
+        }
     }
 
     /// The motion along the ground of a coin on its side.
@@ -211,5 +232,167 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         };
         motion.set_spin(&spin, self.model.dynamics.axial_factor);
         (self.toss.motion, self.toss.spin) = (motion, spin);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_scenes::Rough;
+    use super::*;
+    use crate::contact::Usage;
+    use crate::toss::Toss;
+    use coinmc_core::Launch;
+    use coinmc_testkit::Dice;
+    use nalgebra::{UnitVector3, Vector3};
+
+    /// A toss that begins upright.
+    fn upright(model: &crate::model::Model<crate::laws::Moreau>) -> Toss {
+        model.launch(&Launch {
+            height_m: 0.0,
+            velocity_m_s: Vector3::zeros(),
+            axis: UnitVector3::new_unchecked(Vector3::x()),
+            spin_rad_s: Vector3::zeros(),
+        })
+    }
+
+    /// Momentum and angular momentum about the centre, per m D sqrt(gD), in axes that the coin's have turned away
+    /// from by `angle` about the vertical.
+    fn momenta<I: ImpactLaw>(walk: &Walk<'_, I, ()>, angle: f64) -> [Vector3<f64>; 2] {
+        let (m, spin, body) = (&walk.toss.motion, &walk.toss.spin, walk.body());
+        let own = Vector3::new(m.sin, 0.0, m.cos) * (body.ka * spin.axial)
+            + Vector3::new(m.cos, 0.0, -m.sin) * (body.kt * spin.turn)
+            + Vector3::y() * (body.kt * spin.tilt);
+        let (sin, cos) = libm::sincos(angle);
+        [Vector3::new(m.vx, m.vy, m.vz), own]
+            .map(|v| Vector3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z))
+    }
+
+    /// The normal forces on both rims by Newton's and Euler's laws: from the rates of momentum and angular momentum
+    /// of a coin whose rims follow their tracks, as differences, and from where the rims touch. A rim stays down where its
+    /// force is positive.
+    #[test]
+    fn a_rim_stays_down_where_its_normal_force_is_positive() {
+        let (model, mut seen) = (Rough::of(0.7, 0.02).model(), [0; 4]);
+        let ground = model.ground.expect("a rough ground");
+        for toss in 0..1_500 {
+            let mut dice = Dice::new(531, toss);
+            let mut toss = upright(&model);
+            let (mut usage, mut observer) = (Usage::default(), ());
+            let mut walk =
+                Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+            let mut number = |most: f64| dice.between(-most, most);
+            let state = [number(0.5), number(0.5), number(1.2), number(1.2)];
+            let ahead = [number(0.02), number(0.02)];
+            let heights = [number(0.02), number(0.02)];
+            let rates = [number(0.01), number(0.01)];
+            let (time, rises) = (0.05, [number(1.5), number(1.5)]);
+            let creep = model.contact_rules().stick_speed;
+            let dynamics = &model.dynamics;
+            let flow = line_rates_on::<true>(dynamics, &state, creep, ahead).rates;
+            let mut at = |t: f64| {
+                for (i, track) in [&mut walk.tracks.own, &mut walk.tracks.other]
+                    .into_iter()
+                    .enumerate()
+                {
+                    track.height = heights[i] + rates[i] * t + 0.5 * rises[i] * t * t;
+                    track.rate = rates[i] + rises[i] * t;
+                }
+                let now: LineState = std::array::from_fn(|i| state[i] + flow[i] * t);
+                walk.place_on_tracks(&now);
+                momenta(&walk, state[3] * t)
+            };
+            let h = 1e-5;
+            let (before, after) = (at(-h), at(h));
+            let [force, torque] = [0, 1].map(|i| (after[i] - before[i]) / (2.0 * h));
+            at(0.0);
+            let (normal, body) = (1.0 + force.z, &dynamics.body);
+            // the rims touch at −h u + R a and h u + R a from the centre, a the lean, and R below it
+            let lean = (heights[1] - heights[0]) / (2.0 * body.half);
+            let [own, other] = [-body.half, body.half].map(|half| half + body.radius * lean);
+            let first = (-body.radius * force.x - torque.y - other * normal) / (own - other);
+            let second = normal - first;
+            let expected = match (normal > 0.0, first >= 0.0, second >= 0.0) {
+                (false, ..) => Down::Nothing,
+                (_, true, true) => Down::Both,
+                (_, true, false) => Down::Own,
+                (_, false, _) => Down::Other,
+            };
+            // of first order in the lean
+            if [normal, first, second]
+                .iter()
+                .all(|force| force.abs() > 3e-3)
+            {
+                seen[expected as usize] += 1;
+                let bends = rises.map(|rise| rise * time);
+                let found = walk.down_at(&state, bends, time, ahead);
+                assert_eq!(found, expected, "{normal} {first} {second}");
+            }
+        }
+        assert!(seen.iter().all(|count| *count > 60), "{seen:?}");
+    }
+
+    /// Where both rims touch, neither the coin's energy nor its budget knows of more than the work of friction: of a coin
+    /// that slides along its axis, along the ground, or turns on the spot, by the textbook's rates.
+    #[test]
+    fn friction_on_both_rims_takes_its_work_from_the_budget() {
+        let rough = Rough {
+            friction_m: [1e-12, 1e-12],
+            ..Rough::of(0.7, 1e-4)
+        };
+        let model = rough.model();
+        let ground = model.ground.expect("a rough ground");
+        let (body, mu) = (&model.dynamics.body, 0.3);
+        let (time, speed) = (0.05_f64, 0.8);
+        // the rate at which friction slows down the slip of both rims, and the force on it
+        for (state, slowing) in [
+            ([speed, 0.0, 0.0, 0.0], mu),
+            (
+                [0.0, 0.6 * speed, 0.4 * speed / body.radius, 0.0],
+                mu * (1.0 + body.radius * body.radius / body.ka),
+            ),
+            (
+                [0.0, 0.0, 0.0, speed / body.half],
+                mu * body.half * body.half / body.kt,
+            ),
+        ] {
+            let mut toss = upright(&model);
+            let (mut usage, mut observer) = (Usage::default(), ());
+            let mut walk =
+                Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+            (walk.tracks.left, walk.tracks.interval) = (time, time);
+            walk.place_on_tracks(&state);
+            walk.budget = walk.energy();
+            let before = walk.budget;
+            walk.roll_on_both();
+            let work = mu * (speed * time - 0.5 * slowing * time * time);
+            let lost = before - walk.budget;
+            assert!((lost / work - 1.0).abs() < 1e-4, "{state:?} {lost} {work}");
+        }
+    }
+
+    /// A coin whose rims follow their tracks: its lowest points are at their heights and rise at their rates, and the motion
+    /// along the ground is the one asked for.
+    #[test]
+    fn rims_follow_their_tracks() {
+        let model = Rough::of(0.7, 0.02).model();
+        let ground = model.ground.expect("a rough ground");
+        let mut toss = upright(&model);
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        (walk.tracks.own.height, walk.tracks.other.height) = (0.002, -0.003);
+        (walk.tracks.own.rate, walk.tracks.other.rate) = (0.3, -0.1);
+        let state = [0.4, -0.3, 0.7, 0.9];
+        walk.place_on_tracks(&state);
+        let (m, spin, body) = (&walk.toss.motion, &walk.toss.spin, walk.body());
+        assert_eq!(walk.line_state(), state);
+        for (half, height, rate) in [(-body.half, 0.002, 0.3), (body.half, -0.003, -0.1)] {
+            let (x, z) = (
+                half * m.sin + body.radius * m.cos,
+                half * m.cos - body.radius * m.sin,
+            );
+            assert!((m.z + z - height).abs() < 1e-15);
+            // of first order in the lean, which is .008
+            assert!((m.vz - spin.tilt * x - rate).abs() < 1e-2 * spin.tilt.abs());
+        }
     }
 }

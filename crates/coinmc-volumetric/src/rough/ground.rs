@@ -324,4 +324,48 @@ mod tests {
         }
         assert!(squares <= 300.0 * 0.005 * 0.005, "{squares}");
     }
+
+    /// How much the heights under both rims differ: the root mean square of differences at random places, on waves much
+    /// longer than the coin is thick; on short ones no more than the heights do.
+    #[test]
+    fn unevenness_is_the_rms_difference_of_the_heights_under_both_rims() {
+        let coin = Coin::cylinder(0.6, 1.0).expect("a valid coin");
+        let body = Body::new(&coin);
+        let thickness = 2.0 * body.half;
+        for (length, expected) in [(3.0 * thickness, None), (0.05 * thickness, Some(1.0))] {
+            let ground = Ground::new(0.05, length, &body);
+            let mut squares = 0.0;
+            let count = 20_000;
+            for i in 0..count {
+                let mut dice = coinmc_testkit::Dice::new(551, i);
+                let [x, y] = [0, 1].map(|_| dice.between(-60.0, 60.0) * length);
+                let (sin, cos) = libm::sincos(dice.between(0.0, 6.0));
+                let height = |[x, y]: [f64; 2]| {
+                    let [x, y] = ground.in_lengths([x, y]);
+                    ground.height * HeightField::shared().height(x, y)
+                };
+                let difference =
+                    height([x + thickness * cos, y + thickness * sin]) - height([x, y]);
+                squares += difference * difference;
+            }
+            let found = expected.map_or((squares / count as f64).sqrt(), |share| {
+                share * ground.height
+            });
+            // one field on a torus of 128 ℓ is no whole ensemble: it differs by some per cent
+            assert!((ground.unevenness() / found - 1.0).abs() < 0.03, "{found}");
+        }
+    }
+
+    /// The highest of points of an arc of a rim that lies on a parabola is its top, wherever that is between the points.
+    #[test]
+    fn the_highest_point_of_a_parabola_is_its_top() {
+        for top in [-7.3, -0.4, 0.0, 0.6, 3.5, 9.8] {
+            let at = |k: f64| 2.0 - 0.03 * (k - top) * (k - top);
+            for spare in [0.0, 10.0] {
+                let (k, height) = highest(1e-6, at, |k| at(k) + spare);
+                assert!((k - top).abs() < 1e-9, "{top}: {k}");
+                assert!((height - 2.0).abs() < 1e-9, "{top}: {height}");
+            }
+        }
+    }
 }

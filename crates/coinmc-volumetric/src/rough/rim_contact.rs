@@ -375,3 +375,6 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         self.descend_from(&start);
     }
 }
+
+#[cfg(test)]
+mod tests;

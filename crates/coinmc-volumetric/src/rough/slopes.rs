@@ -136,8 +136,9 @@ mod tests {
     use crate::contact::Usage;
     use crate::laws::Moreau;
     use crate::model::Model;
+    use crate::settings::Settings;
     use crate::toss::Toss;
-    use coinmc_core::Launch;
+    use coinmc_core::{Launch, Scene, TableTilt};
     use nalgebra::{UnitVector3, Vector3};
 
     /// A coin on ground with much rolling friction; its R and ρ_c, m.
@@ -307,5 +308,170 @@ mod tests {
         assert!((vy - 0.3 - gained).abs() < 1e-15, "{vy}");
         assert!((vy + body.radius * wa).abs() < 1e-15, "{wa}");
         assert_eq!([vx, wz], [0.0; 2]);
+    }
+
+    /// The same on a table that is tilted by 4°.
+    fn tilted() -> Model<Moreau> {
+        let scene = Rough {
+            friction_m: [1e-9, 1e-9],
+            ..Rough::of(0.7, 0.02)
+        }
+        .scene();
+        let tilt = TableTilt::new(4.0, 30.0).expect("a valid tilt");
+        let surface = scene.surface.with_tilt(tilt).expect("a valid surface");
+        let scene = Scene::new(scene.coin, surface, 9.81).expect("a valid scene");
+        Model::new(&scene, &Settings::default(), Moreau).expect("valid settings")
+    }
+
+    /// Half of the pull of a tilted table in a time t is ½ t tan β on the centre. A point that slips leaves it at that; one that
+    /// sticks takes up what would move it, so that what is left is the moment of the pull about it.
+    #[test]
+    fn a_tilted_table_pulls_at_the_centre() {
+        let (model, time) = (tilted(), 0.05);
+        let ground = model.ground.expect("a rough ground");
+        let radius = model.dynamics.body.radius;
+        for (sliding, mode) in [(0.0, Mode::Stick), (1.0, Mode::Slip)] {
+            let mut launch = leaning(0.3, [sliding, -0.3], 0.3 / (radius * model.units.length_m));
+            launch.velocity_m_s =
+                nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), 0.4) * launch.velocity_m_s;
+            let axis = launch.axis.into_inner();
+            launch.axis = UnitVector3::new_unchecked(
+                nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), 0.4) * axis,
+            );
+            launch.spin_rad_s = launch.axis.into_inner() * (0.3 / (radius * model.units.length_m));
+            let mut toss = touching(&model, &launch);
+            let (mut usage, mut observer) = (Usage::default(), ());
+            let mut walk =
+                Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+            let contact = walk.contact();
+            assert_eq!(contact.mode, mode);
+            // 30° downhill, seen from a frame at .4 rad
+            let (sin, cos) = libm::sincos(30.0_f64.to_radians() - 0.4);
+            let slope = libm::tan(4.0_f64.to_radians());
+            let pull = Vector3::new(cos, sin, 0.0) * (0.5 * time * slope);
+            let point = |walk: &Walk<'_, Moreau, ()>| {
+                walk.toss.motion.contact_point(walk.body(), &walk.toss.spin)
+            };
+            let (before, [momentum, angular]) = (point(&walk), momenta(&walk));
+            walk.descend_on_rim(&contact, [0.0; 2], time);
+            let (after, now) = (point(&walk), momenta(&walk));
+            assert!((after.approach - before.approach).abs() < 1e-12);
+            if mode == Mode::Slip {
+                assert!(
+                    (now[0] - momentum - pull).norm() < 1e-12,
+                    "{momentum} {pull}"
+                );
+            } else {
+                assert!((after.slip_x - before.slip_x).abs() < 1e-12);
+                assert!((after.slip_y - before.slip_y).abs() < 1e-12);
+            }
+            let centre = -Vector3::new(before.rx, 0.0, before.rz);
+            let moment = centre.cross(&pull);
+            assert!((now[1] - angular - moment).norm() < 1e-12, "{moment}");
+        }
+    }
+
+    /// On both rims half of the pull moves a coin that slides, a rolling wheel by 1/(1 + k_a/R²) of it along the ground, and
+    /// none that friction holds along its axis.
+    #[test]
+    fn a_tilted_table_pulls_a_coin_on_both_rims() {
+        let (model, time) = (tilted(), 0.1);
+        let ground = model.ground.expect("a rough ground");
+        let mut toss = model.launch(&leaning(0.01, [0.0; 2], 0.0));
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        let body = model.dynamics.body;
+        let (sin, cos) = libm::sincos(30.0_f64.to_radians());
+        let half = 0.5 * time * libm::tan(4.0_f64.to_radians());
+        let (level, close) = ([[0.0; 2]; 2], |a: f64, b: f64| (a - b).abs() < 1e-12);
+        let [vx, vy, wa, wz] = walk.descend_on_both(&[0.4, 0.3, 0.1, 0.2], level, time);
+        assert!(
+            close(vx, 0.4 + half * cos) && close(vy, 0.3 + half * sin),
+            "{vx} {vy}"
+        );
+        assert_eq!([wa, wz], [0.1, 0.2]);
+        // it creeps, held by friction, and slides along the ground
+        let creep = 0.5 * model.contact_rules().creep;
+        let [vx, vy, ..] = walk.descend_on_both(&[creep, 0.3, 0.1, 0.2], level, time);
+        assert!(vx == creep && close(vy, 0.3 + half * sin), "{vx} {vy}");
+        let rolling = [0.0, 0.3, -0.3 / body.radius, 0.0];
+        let [vx, vy, wa, _] = walk.descend_on_both(&rolling, level, time);
+        let gained = half * sin / (1.0 + body.ka / (body.radius * body.radius));
+        assert!(vx == 0.0 && close(vy, 0.3 + gained) && close(vy, -body.radius * wa));
+    }
+
+    /// The way down a tilted table gives the budget what the height is worth, and the way up takes it.
+    #[test]
+    fn the_way_down_a_tilted_table_adds_to_the_budget() {
+        let model = tilted();
+        let ground = model.ground.expect("a rough ground");
+        let mut toss = model.launch(&leaning(0.01, [0.0; 2], 0.0));
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        let slope = libm::tan(4.0_f64.to_radians());
+        let (sin, cos) = libm::sincos(30.0_f64.to_radians());
+        for [x, y] in [[0.3, 0.2], [-0.1, 0.4], [-0.5, -0.3]] {
+            let (before, budget) = (walk.toss.place, walk.budget);
+            walk.toss.place.shift(x, y);
+            walk.descend_from(&before);
+            let gained = walk.budget - budget;
+            assert!(
+                (gained - slope * (x * cos + y * sin)).abs() < 1e-14,
+                "{gained}"
+            );
+        }
+    }
+
+    /// Rolling friction ρ_c N holds a coin on a gentler slope as long as it stops its rolling within the time: its moment, less
+    /// that of the slope, about a contact point that stays where it is, over the moment of inertia there.
+    #[test]
+    fn rolling_friction_holds_a_coin_that_it_stops_in_time() {
+        let (time, friction) = (0.05, 1e-3);
+        let (model, radius_m, _) = held_by_rolling_friction();
+        let ground = model.ground.expect("a rough ground");
+        for angle in [0.1, 0.5] {
+            for share in [0.2, 0.6] {
+                for (speed, held) in [(0.98, true), (1.02, false)] {
+                    let mut toss = touching(&model, &leaning(angle, [0.0; 2], 0.0));
+                    let body = model.dynamics.body;
+                    let point = toss.motion.contact_point(&body, &toss.spin);
+                    // about the contact point, of a body whose centre is at −r
+                    let r = -Vector3::new(point.rx, 0.0, point.rz);
+                    let u = Vector3::new(point.sin, 0.0, point.cos);
+                    let tensor = nalgebra::Matrix3::identity() * (body.kt + r.norm_squared())
+                        + u * u.transpose() * (body.ka - body.kt)
+                        - r * r.transpose();
+                    let gives = tensor.try_inverse().expect("a moment of inertia")[(0, 0)];
+                    let (mut usage, mut observer) = (Usage::default(), ());
+                    let normal = {
+                        let mut still = toss;
+                        Walk::above_ground(&model, &ground, &mut still, &mut usage, &mut observer)
+                            .contact()
+                            .now
+                            .normal
+                    };
+                    let moment = (1.0 - share) * friction / radius_m * body.radius;
+                    let rolls = speed * moment * 0.5 * time * normal * gives;
+                    // it turns about the horizontal through its contact point, across its plane
+                    let spin = Vector3::x() * rolls;
+                    let velocity = spin.cross(&r);
+                    (toss.motion.vx, toss.motion.vy, toss.motion.vz) =
+                        (velocity.x, velocity.y, velocity.z);
+                    toss.spin.axial = spin.dot(&u);
+                    toss.spin.turn = spin.dot(&Vector3::new(point.cos, 0.0, -point.sin));
+                    toss.motion
+                        .set_spin(&toss.spin, model.dynamics.axial_factor);
+                    let mut walk =
+                        Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+                    let contact = walk.contact();
+                    assert_eq!(contact.mode, Mode::Stick);
+                    let before = walk.toss.spin.axial;
+                    let steep = share * friction / radius_m * walk.toss.motion.sin;
+                    walk.descend_on_rim(&contact, [0.0, steep], time);
+                    let gained = walk.toss.spin.axial - before;
+                    assert_eq!(gained == 0.0, held, "{angle} {speed}: {gained:e}");
+                }
+            }
+        }
     }
 }
