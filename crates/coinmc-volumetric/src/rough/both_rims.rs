@@ -395,4 +395,84 @@ mod tests {
             assert!((m.vz - spin.tilt * x - rate).abs() < 1e-2 * spin.tilt.abs());
         }
     }
+
+    /// A coin that rolls straight is slowed down by rolling friction alone: v' = −ρ_c R/(k_a + R²), in one step, and goes on
+    /// rolling. Its budget loses what that takes from its energy; it takes the time to the node.
+    #[test]
+    fn a_coin_that_rolls_straight_is_slowed_down_by_rolling_friction() {
+        let rough = Rough {
+            friction_m: [5e-4, 1e-12],
+            ..Rough::of(0.7, 1e-5)
+        };
+        let model = rough.model();
+        let ground = model.ground.expect("a rough ground");
+        let (body, time, speed) = (&model.dynamics.body, 0.05, 0.4);
+        let mut toss = upright(&model);
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        (walk.tracks.left, walk.tracks.interval) = (time, time);
+        walk.place_on_tracks(&[0.0, speed, -speed / body.radius, 0.0]);
+        walk.budget = walk.energy();
+        let before = walk.budget;
+        walk.roll_on_both();
+        let inertia = body.ka + body.radius * body.radius;
+        let end = speed - model.dynamics.friction.contour * body.radius / inertia * time;
+        let per_square = 0.5 * inertia / (body.radius * body.radius);
+        let lost = per_square * (speed * speed - end * end);
+        assert!(((before - walk.budget) / lost - 1.0).abs() < 1e-3, "{lost}");
+        let state = walk.line_state();
+        assert!((state[1] / end - 1.0).abs() < 1e-4, "{state:?} {end}");
+        assert!((state[1] + body.radius * state[2]).abs() < 1e-12);
+        assert_eq!((walk.usage.steps, walk.usage.time), (1, time));
+    }
+
+    /// Where tracks that have risen at a rate stop rising, within the mean of the times to the nodes before and after, a coin whose
+    /// weight does not bring it down as fast loses contact; if one of them does so, its rim does.
+    #[test]
+    fn a_coin_lifts_off_where_tracks_fall_away_faster_than_it_falls() {
+        let model = Rough::of(0.7, 1e-6).model();
+        let ground = model.ground.expect("a rough ground");
+        let (interval, speed) = (0.05, 0.3);
+        for (shares, expected, own_lifts_off) in [
+            ([0.97, 0.97], Touch::Both, false),
+            ([1.03, 1.03], Touch::Nothing, false),
+            ([1.0, 0.0], Touch::Rim, true),
+            ([0.0, 1.0], Touch::Rim, false),
+        ] {
+            let mut toss = upright(&model);
+            let (mut usage, mut observer) = (Usage::default(), ());
+            let mut walk =
+                Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+            let state = [0.0, speed, -speed / walk.body().radius, 0.0];
+            walk.place_on_tracks(&state);
+            let time = 0.5 * (interval + walk.time_between_nodes());
+            walk.tracks.interval = interval;
+            [walk.tracks.own.rate, walk.tracks.other.rate] = shares.map(|share| share * time);
+            walk.tracks.other.near = true;
+            walk.place_on_tracks(&state);
+            walk.budget = walk.energy();
+            let heading = walk.place.direction(1.0, 0.0);
+            let next = walk.pass_node_on_both(&state, [[0.0; 2]; 2], [0.0; 2]);
+            assert_eq!(next, Next::Goes(expected), "{shares:?}");
+            let [x, y] = walk.place.direction(1.0, 0.0);
+            let turned = x * heading[0] + y * heading[1] < 0.0;
+            assert_eq!(turned, own_lifts_off, "{shares:?}");
+        }
+    }
+
+    /// A coin that slides touches slopes ahead of its lowest points; one that rolls straight asks for none.
+    #[test]
+    fn a_coin_that_slides_touches_ahead_of_its_lowest_points() {
+        let model = Rough::of(0.7, 0.02).model();
+        let ground = model.ground.expect("a rough ground");
+        let mut toss = upright(&model);
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        let radius = walk.body().radius;
+        let slopes = [[0.3, 0.02], [0.1, -0.05]];
+        let [own, other] = walk.both_ahead(&[0.3, 0.2, 0.1, 0.5], slopes);
+        assert!((own - 0.02 * radius).abs() < 1e-15 && (other + 0.05 * radius).abs() < 1e-15);
+        let straight = [0.0, 0.3, -0.3 / radius, 0.0];
+        assert_eq!(walk.both_ahead(&straight, slopes), [0.0; 2]);
+    }
 }

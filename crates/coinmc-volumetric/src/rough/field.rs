@@ -316,6 +316,8 @@ mod tests {
     fn no_height_exceeds_the_bound_of_its_cell_and_some_come_near() {
         let field = HeightField::shared();
         assert!(field.bounds.iter().all(|&bound| bound < i8::MAX));
+        let most = field.bounds.iter().copied().max().map(f64::from);
+        assert_eq!(Some(field.highest()), most.map(|steps| steps / 16.0));
         let mut nearest = f64::INFINITY;
         for i in 0..300_u32 {
             for j in 0..300_u32 {
