@@ -349,3 +349,85 @@ fn a_step_is_shown_along_a_straight_line() {
         assert!((state.position_m.z - height).abs() < 1e-12, "{share}");
     }
 }
+
+/// After a step a coin that is nearly flat goes on as on a plane; one that nothing presses onto the ground leaves it; slip that
+/// friction brings to an end, and is slow, ends; all else goes on.
+#[test]
+fn a_step_ends_contact_or_slip_where_they_end() {
+    let of = |friction: f64| Rough {
+        friction,
+        ..Rough::of(0.7, 0.02)
+    };
+    let stick = of(0.3).model().contact_rules().stick_speed;
+    let (flat, free, rim) = (
+        Some(Next::Ends(Transition::Contact)),
+        Some(Next::Goes(Touch::Nothing)),
+        Some(Next::Goes(Touch::Rim)),
+    );
+    for (friction, sin, press, slip, slows, expected) in [
+        (0.3, 0.19, 1.0, [0.2, -0.3], true, flat),
+        (0.3, 0.9, -0.1, [0.2, -0.3], true, free),
+        (0.3, 0.9, 0.1, [0.2, -0.3], true, None),
+        (0.3, 0.9, 0.1, [0.5 * stick, -0.7 * stick], true, rim),
+        (0.3, 0.9, 0.1, [0.5 * stick, -0.7 * stick], false, None),
+        (0.3, 0.9, 0.1, [0.9 * stick, -0.7 * stick], true, None),
+        (0.0, 0.9, 0.1, [0.5 * stick, -0.7 * stick], true, None),
+    ] {
+        let model = of(friction).model();
+        let ground = model.ground.expect("a rough ground");
+        let mut toss = touching(&model, 0.4);
+        set_motion(&mut toss, &model, ROLLING, [0.2, -0.3]);
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        let mut contact = walk.contact();
+        assert_eq!(contact.mode, Mode::Slip);
+        (contact.state[SLIP_X], contact.state[SLIP_Y]) = (slip[0], slip[1]);
+        contact.now.press = press;
+        let sign = if slows { -1.0 } else { 1.0 };
+        // mostly along y: along x alone the slip would grow, or slow down
+        contact.now.state[SLIP_X] = -sign * slip[0];
+        contact.now.state[SLIP_Y] = 3.0 * sign * slip[1];
+        walk.toss.motion.sin = sin;
+        assert_eq!(
+            walk.after_step(&contact),
+            expected,
+            "{friction} {sin} {press} {slip:?}"
+        );
+    }
+}
+
+/// Many short steps of one rim take the time that they take, one try each at least.
+#[test]
+fn steps_of_a_rim_count_and_take_their_time() {
+    let model = Rough::of(0.7, 0.001).model();
+    let ground = model.ground.expect("a rough ground");
+    let mut toss = touching(&model, 0.2);
+    set_motion(&mut toss, &model, ROLLING, [0.0, 0.0]);
+    let (mut usage, mut observer) = (Usage::default(), ());
+    let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+    walk.usage.time = 3.0;
+    walk.usage.steps = 7;
+    (walk.tracks.left, walk.tracks.interval) = (0.02, 0.02);
+    walk.budget = walk.energy();
+    let energy = walk.energy();
+    let mut contact = walk.contact();
+    let mut wanted = walk.tracks.left;
+    let mut rounds = 0;
+    while !walk.tracks.at_node() {
+        walk.step_on_rim(&mut contact, &mut wanted);
+        rounds += 1;
+    }
+    assert!(
+        (walk.usage.time - 3.02).abs() < 1e-12,
+        "{}",
+        walk.usage.time
+    );
+    assert!((7 + rounds..30).contains(&walk.usage.steps));
+    // what rolling and pivoting friction take, and no more, is lost of the energy
+    assert!(
+        walk.budget < energy && walk.budget > energy - 0.02 * 0.02,
+        "{}",
+        walk.budget
+    );
+    assert!((walk.energy() - walk.budget).abs() < 1e-9);
+}
