@@ -212,11 +212,10 @@ fn a_motion_that_repeats_itself_turns_where_its_energy_is_all_potential() {
         let mut phase = phase(&model.dynamics, state, Mode::Slip);
         phase.length = 0.1;
         let mut solver = model.contact_solver(Usage::default());
-        let exit = loop {
-            if let (PhaseTransition::Leave(exit), _) = solver.take_step(&mut phase) {
-                break exit;
-            }
-        };
+        let exit = (0..1_000).find_map(|_| match solver.take_step(&mut phase).0 {
+            PhaseTransition::Leave(exit) => Some(exit),
+            _ => None,
+        });
         if phase.turning_points < 3 {
             continue;
         }
@@ -244,7 +243,7 @@ fn a_motion_that_repeats_itself_turns_where_its_energy_is_all_potential() {
         } else {
             Exit::NeverSettles
         };
-        assert_eq!(exit, expected, "{:?}", phase.tilts);
+        assert_eq!(exit, Some(expected), "{:?}", phase.tilts);
     }
     assert!(checked > 30, "{checked}");
 }

@@ -264,9 +264,9 @@ fn the_chord_spans_half_of_the_way() {
         let (across, across_rate) = ([part(), part()], [4.0 * part(), 4.0 * part()]);
         let sin = libm::hypot(across[0], across[1]);
         let now = Gap {
+            sin,
             across,
             across_rate,
-            sin,
             ..orbit.first_gap(&body(0.4))
         };
         let (slope, until) = chord(&now);
