@@ -286,10 +286,147 @@ pub(crate) fn fastest_rate<L: Lane>(m: &Motion<L>, spin: &Spin<L>) -> L {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::flight::Orbit;
     use crate::flight_phase::tests::height_of_rim;
     use crate::toss::tests::{launch, model};
     use coinmc_testkit::Dice;
+    use nalgebra::Vector3;
+
+    const BODY: Body = Body {
+        radius: 0.7,
+        half: 0.5,
+        rim: 0.0,
+        kt: 0.35,
+        ka: 0.22,
+    };
+    const AIRLESS: Drag = Drag {
+        linear: 0.0,
+        angular: 0.0,
+    };
+
+    fn with_lengths(contour: f64, pivoting: f64, smoothing_time: f64) -> Dynamics {
+        let friction = Friction {
+            mu: 0.3,
+            contour,
+            pivoting,
+        };
+        Dynamics::new(BODY, friction, AIRLESS, 0.6, smoothing_time)
+    }
+
+    /// Contour friction alone brakes ω_x, pivoting friction alone ω_z, at its length whatever the rate; and a rate
+    /// that they would end within the smoothing time τ decays at 1/τ. Both at once are the sum.
+    #[test]
+    fn friction_lengths_brake_fast_rates_dryly_and_slow_ones_in_the_smoothing_time() {
+        let (contour, pivoting, time) = (0.013, 0.021, 0.17);
+        let [rolls, pivots, both] = [(contour, 0.0), (0.0, pivoting), (contour, pivoting)]
+            .map(|(contour, pivoting)| with_lengths(contour, pivoting, time));
+        for trial in 0..200 {
+            let mut dice = Dice::new(842, trial);
+            let (s, c) = libm::sincos(dice.between(0.1, 1.5));
+            let (wx, wz) = (dice.between(-1.0, 1.0), dice.between(-1.0, 1.0));
+            let torques = |dynamics: &Dynamics, scale: f64| {
+                let (wx, wz) = (scale * wx, scale * wz);
+                let (a, t) = dynamics.friction_torques(s, c, s * wx + c * wz, c * wx - s * wz);
+                [a, t]
+            };
+            // about x and about the vertical, and the rates of ω_x and ω_z that they brake
+            let about = |[a, t]: [f64; 2]| [s * a + c * t, c * a - s * t];
+            let brakes = |[a, t]: [f64; 2]| about([a / BODY.ka, t / BODY.kt]);
+            let [x, z] = about(torques(&rolls, 1e3));
+            assert!((x - contour / s * wx.signum()).abs() < 1e-14 && z.abs() < 1e-15);
+            let [x, z] = about(torques(&pivots, 1e3));
+            assert!(x.abs() < 1e-15 && (z - pivoting * wz.signum()).abs() < 1e-14);
+            let tiny = 1e-5;
+            let [x, _] = brakes(torques(&rolls, tiny));
+            assert!((x * time / (tiny * wx) - 1.0).abs() < 1e-12, "{x}");
+            let [_, z] = brakes(torques(&pivots, tiny));
+            assert!((z * time / (tiny * wz) - 1.0).abs() < 1e-12, "{z}");
+            for scale in [tiny, 1e3] {
+                let [one, other, sum] = [&rolls, &pivots, &both].map(|d| torques(d, scale));
+                let off = [0, 1].map(|i| one[i] + other[i] - sum[i]);
+                assert!(off.iter().all(|off| off.abs() < 1e-15), "{off:?}");
+            }
+        }
+        assert_eq!(
+            with_lengths(0.0, 0.0, time).friction_torques(0.6, 0.8, 1.0, 2.0),
+            (0.0, 0.0)
+        );
+    }
+
+    /// Each thing that a scene may have beyond the ordinary is noticed; what is known to be absent is dropped.
+    #[test]
+    fn scenes_beyond_the_ordinary_are_told_apart() {
+        let plain = with_lengths(0.01, 0.01, 1e-2);
+        let mut rounded = plain;
+        rounded.body.rim = 0.1;
+        let mut dragged = plain;
+        dragged.drag.linear = 0.1;
+        let held = with_lengths(0.0, 0.0501, 1e-2);
+        let conical = plain.on_rim(-0.1);
+        let pulled = plain.pulled_by([0.1, 0.2]);
+        let told = |dynamics: &Dynamics| {
+            (
+                dynamics.drags_or_rounds(),
+                dynamics.holds(),
+                dynamics.is_ordinary(),
+            )
+        };
+        assert_eq!(told(&plain), (false, false, true));
+        assert_eq!(told(&dragged), (true, false, true));
+        assert_eq!(told(&rounded), (true, false, false));
+        assert_eq!(told(&held), (false, true, false));
+        assert_eq!(told(&conical), (false, false, false));
+        assert_eq!(told(&pulled), (false, false, false));
+        assert_eq!(told(&plain.on_rim(0.1)), (false, false, true));
+        assert_eq!(told(&rounded.with_sharp_rims()), (false, false, true));
+        assert!(!told(&held.with_known::<false, false>()).1);
+        assert!(told(&held.with_known::<true, true>()).1);
+        assert!(!told(&rounded.with_known::<false, true>()).0);
+        assert!(told(&rounded.with_known::<true, true>()).0);
+        assert_eq!(pulled.reversed().pull, Some([-0.1, -0.2]));
+    }
+
+    /// The fastest rate of a coin that only stands is 1; rolling, tilting and precessing add to its square, the last
+    /// one as fast as the axis turns about the vertical.
+    #[test]
+    fn the_fastest_rate_holds_those_of_all_motions() {
+        let model = model();
+        for number in 0..100 {
+            let toss = model.launch(&launch(&mut Dice::new(843, number), None));
+            let (motion, spin) = (&toss.motion, &toss.spin);
+            let axis = Vector3::new(motion.sin, 0.0, motion.cos);
+            let across = Vector3::new(motion.cos, 0.0, -motion.sin);
+            let turns =
+                (axis * spin.axial + across * spin.turn + Vector3::y() * spin.tilt).cross(&axis);
+            let azimuth = axis.cross(&turns).z / (motion.sin * motion.sin);
+            let square = 1.0 + Vector3::new(spin.axial, spin.tilt, azimuth).norm_squared();
+            let found = fastest_rate(motion, spin);
+            assert!((found * found / square - 1.0).abs() < 1e-12);
+        }
+        let (still, turned) = (Motion::<f64>::still(), Spin::still());
+        let mut leans = still;
+        leans.set_tilt(0.6, 0.8);
+        assert!((fastest_rate(&leans, &turned) - 1.0).abs() < 1e-15);
+    }
+
+    /// What the estimate allows above 1 is never less than the press has, and for a coin that does not tilt the lever of
+    /// the centre's weight times that.
+    #[test]
+    fn no_coin_presses_by_more_than_its_estimate() {
+        let model = model();
+        let dynamics = &model.dynamics;
+        for number in 0..200 {
+            let toss = model.launch(&launch(&mut Dice::new(844, number), None));
+            let (motion, mut spin) = (&toss.motion, toss.spin);
+            let most = dynamics.uplift(motion, &spin);
+            assert!(dynamics.press(motion, &spin) <= 1.0 + most + 1e-12);
+            spin.tilt = 0.0;
+            let lever = dynamics.body.radius * motion.cos - dynamics.body.half * motion.sin;
+            let excess = dynamics.press(motion, &spin) - 1.0;
+            assert!((excess.abs() - lever.abs() * most).abs() < 1e-12 * (1.0 + most));
+        }
+    }
 
     /// The height of the lowest point of the rim of a coin in flight, differenced twice. With steps of 1e-3 the
     /// second difference is good to some 1e-6 rates⁴/12.

@@ -207,3 +207,6 @@ fn turning_point(phase: &Phase, trial: &Trial<f64, 6>) -> (f64, RimState<f64>) {
     }
     (high, trial.between(&phase.state, high))
 }
+
+#[cfg(test)]
+mod tests;

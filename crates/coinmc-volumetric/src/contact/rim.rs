@@ -307,3 +307,203 @@ impl<L: Lane> Slip<L> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{Body, Friction};
+    use crate::drag::Drag;
+    use coinmc_testkit::Dice;
+    use nalgebra::Vector3;
+
+    /// A coin in the laboratory.
+    struct Lab {
+        axis: Vector3<f64>,
+        spin: Vector3<f64>,
+        /// From the centre to the lowest point.
+        arm: Vector3<f64>,
+        velocity: Vector3<f64>,
+        /// Angular momentum about the centre.
+        momentum: Vector3<f64>,
+    }
+
+    /// The coin whose axis leans towards this azimuth; the slip of the state is that of its lowest point.
+    fn lab(body: &Body, state: &RimState<f64>, azimuth: f64) -> Lab {
+        let [tilt, wy, wa, wt, gx, gy] = *state;
+        let ((s, c), (sin, cos)) = (libm::sincos(tilt), libm::sincos(azimuth));
+        let [x, y, z] = [
+            Vector3::new(cos, sin, 0.0),
+            Vector3::new(-sin, cos, 0.0),
+            Vector3::z(),
+        ];
+        let (axis, across) = (x * s + z * c, x * c - z * s);
+        let spin = axis * wa + across * wt + y * wy;
+        let arm = across * body.radius - axis * body.half - z * body.rim;
+        Lab {
+            axis,
+            spin,
+            arm,
+            velocity: x * gx + y * gy - spin.cross(&arm),
+            momentum: axis * (body.ka * wa) + (across * wt + y * wy) * body.kt,
+        }
+    }
+
+    /// The rate of change at t = 0.
+    fn rate(of: impl Fn(f64) -> Vector3<f64>) -> Vector3<f64> {
+        let h = 1e-4;
+        ((of(h) - of(-h)) * 8.0 - (of(2.0 * h) - of(-2.0 * h))) / (12.0 * h)
+    }
+
+    fn scene(dice: &mut Dice, gyroscopic: bool) -> Dynamics {
+        let body = Body {
+            radius: dice.between(0.3, 1.2),
+            half: dice.between(0.2, 1.2),
+            rim: dice.between(-0.2, 0.2).max(0.0),
+            kt: dice.between(0.1, 0.6),
+            ka: dice.between(0.1, 0.6),
+        };
+        let friction = Friction {
+            mu: dice.between(0.05, 0.5),
+            contour: dice.between(-0.05, 0.1).max(0.0),
+            pivoting: dice.between(-0.05, 0.1).max(0.0),
+        };
+        let drag = Drag {
+            linear: dice.between(-0.5, 0.5).max(0.0),
+            angular: dice.between(-0.5, 0.5).max(0.0),
+        };
+        let factor = if gyroscopic { body.ka / body.kt } else { 1.0 };
+        let dynamics = Dynamics::new(body, friction, drag, factor, 1e-9).on_rim(0.0);
+        let ahead = dice.between(-0.2, 0.2).max(0.0);
+        let pull = [dice.between(-0.2, 0.2), dice.between(-0.2, 0.2)];
+        if dice.chance() {
+            dynamics.pulled_by(pull).touching_ahead(ahead)
+        } else {
+            dynamics.touching_ahead(ahead)
+        }
+    }
+
+    /// Newton's and Euler's equations in the laboratory, differenced: whatever the rims, the moments, friction,
+    /// drag, the pull of the table and how far ahead the rim touches, the rates are those of the forces and of
+    /// their moments, and the forces those of the mode.
+    #[test]
+    fn rates_follow_from_the_forces_in_the_laboratory() {
+        let mut checked = 0;
+        for trial in 0..2_000 {
+            let mut dice = Dice::new(840, trial);
+            let gyroscopic = dice.chance();
+            let dynamics = scene(&mut dice, gyroscopic);
+            let (body, friction) = (&dynamics.body, &dynamics.friction);
+            let mode = if dice.chance() {
+                Mode::Stick
+            } else {
+                Mode::Slip
+            };
+            let slips = if mode == Mode::Slip { 1.0 } else { 0.0 };
+            let mut part = || dice.between(-1.0, 1.0);
+            let [wy, wa, wt] = [part(), part(), part()];
+            let slip = Vector3::new(part(), part(), 0.0) * slips;
+            let tilt = dice.between(0.4, 1.5);
+            let state = [tilt, wy, wa, wt, slip.x, slip.y];
+            let now = dynamics.rates(&state, mode);
+            if now.jam_margin < 0.1 {
+                continue;
+            }
+            checked += 1;
+
+            let (s, c) = libm::sincos(tilt);
+            let (along, about) = (s * wa + c * wt, c * wa - s * wt);
+            let at = |t: f64| {
+                let mut moved: RimState<f64> = std::array::from_fn(|i| state[i] + t * now.state[i]);
+                moved[SLIP_X] += about * dynamics.ahead;
+                lab(body, &moved, -wt / s * t)
+            };
+            let here = at(0.0);
+            let force = Vector3::new(now.friction[0], now.friction[1], now.normal);
+            let [px, py] = dynamics.pull.unwrap_or([0.0; 2]);
+            let acceleration =
+                force + Vector3::new(px, py, -1.0) - here.velocity * dynamics.drag.linear;
+            let twist = Vector3::new(
+                -now.normal * friction.contour / s * along.signum(),
+                0.0,
+                -now.normal * friction.pivoting * about.signum() - dynamics.ahead * force.x,
+            );
+            let mut torque = here.arm.cross(&force) + twist - here.momentum * dynamics.drag.angular;
+            if !gyroscopic {
+                torque += here.spin.cross(&here.momentum);
+            }
+            let size = 1e-9 * (1.0 + force.norm()) / body.ka.min(body.kt).powi(2);
+            let off = [
+                rate(|t| at(t).axis) - here.spin.cross(&here.axis),
+                rate(|t| at(t).velocity) - acceleration,
+                rate(|t| at(t).momentum) - torque,
+            ];
+            assert!(off.iter().all(|off| off.norm() < size), "{trial} {off:?}");
+
+            // an impulse turns the coin, and that moves the lowest point
+            let moves = |p: Vector3<f64>| {
+                let turns = here.arm.cross(&p);
+                let axial = here.axis * here.axis.dot(&turns);
+                p + (axial / body.ka + (turns - axial) / body.kt).cross(&here.arm)
+            };
+            assert!((now.press - moves(force).z).abs() < size);
+            let [slide_x, slide_y] = [now.state[SLIP_X], now.state[SLIP_Y]];
+            if mode == Mode::Stick {
+                assert!(slide_x == 0.0 && slide_y == 0.0 && now.jam_margin == 1.0);
+            } else {
+                let against = -slip.normalize() * friction.mu;
+                let off = force - (against + Vector3::z()) * now.normal;
+                assert!(off.norm() < size, "{off}");
+                let margin = moves(against + Vector3::z()).z;
+                assert!((now.jam_margin - margin).abs() < 1e-12 * (1.0 + margin));
+            }
+        }
+        assert!(checked > 1_500, "{checked}");
+    }
+
+    /// A point that slips, but is at rest at the moment, slips along x.
+    #[test]
+    fn a_slip_that_begins_is_along_x() {
+        for trial in 0..100 {
+            let dynamics = scene(&mut Dice::new(841, trial), true);
+            let mut state = [0.9, 0.3, -0.4, 0.6, 0.0, 0.0];
+            let at_rest = dynamics.rates(&state, Mode::Slip);
+            state[SLIP_X] = 1e-11;
+            let slow = dynamics.rates(&state, Mode::Slip);
+            let off = (0..6).map(|i| (at_rest.state[i] - slow.state[i]).abs());
+            assert!(off.fold(0.0, f64::max) < 1e-8 * (1.0 + slow.normal.abs()));
+            assert!((at_rest.jam_margin - slow.jam_margin).abs() < 1e-9);
+        }
+    }
+
+    /// Energy is kept where no friction slides or twists, no drag acts and no table pulls.
+    #[test]
+    fn contact_conserves_where_nothing_acts() {
+        let at = |mu, contour, pivoting, linear, angular| {
+            let friction = Friction {
+                mu,
+                contour,
+                pivoting,
+            };
+            let body = Body {
+                radius: 0.8,
+                half: 0.6,
+                rim: 0.0,
+                kt: 0.3,
+                ka: 0.4,
+            };
+            Dynamics::new(body, friction, Drag { linear, angular }, 1.0, 1e-2)
+        };
+        let both = |dynamics: &Dynamics| [Mode::Stick, Mode::Slip].map(|m| dynamics.conserves(m));
+        assert_eq!(both(&at(0.0, 0.0, 0.0, 0.0, 0.0)), [true, true]);
+        assert_eq!(both(&at(0.3, 0.0, 0.0, 0.0, 0.0)), [true, false]);
+        for lossy in [
+            at(0.0, 0.1, 0.0, 0.0, 0.0),
+            at(0.0, 0.0, 0.1, 0.0, 0.0),
+            at(0.0, 0.0, 0.0, 0.1, 0.0),
+            at(0.0, 0.0, 0.0, 0.0, 0.1),
+            at(0.0, 0.0, 0.0, 0.0, 0.0).pulled_by([0.1, 0.0]),
+        ] {
+            assert_eq!(both(&lossy), [false, false]);
+        }
+    }
+}

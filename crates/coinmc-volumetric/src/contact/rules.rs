@@ -49,3 +49,42 @@ pub(crate) struct Usage {
     /// Time since the launch, in flight and in contact.
     pub(crate) time: f64,
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::toss::tests::model;
+
+    /// A coin rolls straight, however fast, as long as what slips or turns at its rims is slower than the creep; on
+    /// a surface without friction nothing makes it roll.
+    #[test]
+    fn a_coin_rolls_straight_while_its_rims_slip_less_than_the_creep() {
+        let mut model = model();
+        model.dynamics.body.rim = 0.07;
+        let body = model.dynamics.body;
+        let mut rules = model.contact_rules();
+        rules.creep = 0.013;
+        let fast = -0.83;
+        let rolling = [0.0, -(body.radius + 0.07) * fast, fast, 0.0];
+        assert!(rules.rolls_straight(&rolling));
+        for way in [1.0, -1.0] {
+            let slips = |share: f64| {
+                let slip = share * 0.013 * way;
+                let mut states = [rolling; 5];
+                states[0][0] += slip;
+                states[1][1] += slip;
+                states[2][2] += slip / (body.radius + 0.07);
+                states[3][3] += slip / body.half;
+                for (i, part) in [0.3, 0.3, 0.0, 0.4 / body.half].into_iter().enumerate() {
+                    states[4][i] += part * slip;
+                }
+                states
+            };
+            assert!(slips(0.99).iter().all(|state| rules.rolls_straight(state)));
+            assert!(!slips(1.01).iter().any(|state| rules.rolls_straight(state)));
+        }
+        let mut smooth = model.dynamics;
+        smooth.friction.mu = 0.0;
+        rules.dynamics = &smooth;
+        assert!(!rules.rolls_straight(&rolling));
+    }
+}

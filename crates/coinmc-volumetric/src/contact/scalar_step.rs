@@ -71,3 +71,89 @@ impl ScalarStep<'_> {
         (trial, last)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{Body, Friction};
+    use crate::drag::Drag;
+
+    /// Whatever the code leaves out, a step is that of the plain equations of the whole scene: with rounded rims, drag,
+    /// a pull, friction that holds, a conical edge, or none of them, on level ground and ahead of the lowest point.
+    #[test]
+    fn a_step_leaves_out_only_what_the_scene_lacks() {
+        let body = Body {
+            radius: 0.7,
+            half: 0.5,
+            rim: 0.0,
+            kt: 0.35,
+            ka: 0.22,
+        };
+        let friction = Friction {
+            mu: 0.3,
+            contour: 0.013,
+            pivoting: 0.021,
+        };
+        let air = Drag {
+            linear: 0.4,
+            angular: 0.3,
+        };
+        let airless = Drag {
+            linear: 0.0,
+            angular: 0.0,
+        };
+        let rough = Friction {
+            pivoting: 0.06,
+            ..friction
+        };
+        let round = Body { rim: 0.1, ..body };
+        let scene = |body, friction, drag| Dynamics::new(body, friction, drag, 0.6, 1e-2);
+        let scenes = [
+            scene(body, friction, airless),
+            scene(body, friction, air),
+            scene(round, friction, airless),
+            scene(round, friction, air),
+            scene(body, rough, airless),
+            scene(body, rough, air),
+            scene(body, friction, airless).pulled_by([0.1, -0.2]),
+            scene(body, friction, air).pulled_by([0.1, -0.2]),
+            scene(body, friction, airless).on_rim(-0.1),
+        ];
+        for (number, dynamics) in scenes.iter().enumerate() {
+            for mode in [Mode::Stick, Mode::Slip] {
+                for ahead in [0.0, 0.15] {
+                    let whole = dynamics.touching_ahead(ahead);
+                    let state = [0.9, 0.3, -0.4, 0.02, 0.6, -0.2];
+                    let now = whole.rates(&state, mode);
+                    let tried = ScalarStep {
+                        state: &state,
+                        now: &now,
+                        mode,
+                        length: 0.05,
+                        tolerance: 1e-4,
+                    };
+                    let expected = step(&state, &now.state, 0.05, 1e-4, |at: &_| {
+                        whole.rates(at, mode).state
+                    });
+                    let last = whole.rates(&expected.state, mode);
+                    let mut found = vec![tried.run_ahead(dynamics, ahead)];
+                    if ahead == 0.0 {
+                        found.push(tried.run(dynamics));
+                    }
+                    for (trial, rates) in found {
+                        for i in 0..6 {
+                            let off = [
+                                trial.state[i] - expected.state[i],
+                                rates.state[i] - last.state[i],
+                            ];
+                            assert!(
+                                off.iter().all(|off| off.abs() < 1e-12),
+                                "{number} {mode:?} {ahead} {off:?}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -140,4 +140,35 @@ mod tests {
             assert!(matches!(transition, PhaseTransition::Leave(found) if found == exit));
         }
     }
+
+    /// A coin arrives at its side where it rises to it, or is beyond it whatever it does then; one that lies there or
+    /// sinks from there does not. It becomes level only from above.
+    #[test]
+    fn a_step_arrives_where_the_tilt_passes_the_side_or_becomes_level() {
+        let side = 1.3;
+        let exit = |from: f64, tilt: f64, rate: f64| {
+            let mut phase = Phase::none();
+            phase.state[TILT] = from;
+            let mut state = [0.0; 6];
+            (state[TILT], state[OMEGA_Y]) = (tilt, rate);
+            TiltSearch::within(&phase, &state, 0.1, side).map(|search| search.exit)
+        };
+        let (near, far) = (0.5 * SIDE_ANGLE, 2.0 * SIDE_ANGLE);
+        for (tilt, rates) in [
+            (side - far, [false; 3]),
+            (side - near, [false, false, true]),
+            (side + near, [false, false, true]),
+            (side + far, [true; 3]),
+        ] {
+            for (rate, arrives) in [-0.2, 0.0, 0.2].into_iter().zip(rates) {
+                let found = exit(1.1, tilt, rate);
+                assert_eq!(found == Some(Exit::OtherRim), arrives, "{tilt} {rate}");
+                assert!(arrives || found.is_none());
+            }
+        }
+        assert_eq!(exit(2.0 * FLAT, 0.5 * FLAT, -0.1), Some(Exit::Level));
+        assert_eq!(exit(2.0 * FLAT, 1.5 * FLAT, -0.1), None);
+        assert_eq!(exit(FLAT, 0.5 * FLAT, -0.1), None);
+        assert_eq!(exit(0.7 * FLAT, 0.5 * FLAT, -0.1), None);
+    }
 }

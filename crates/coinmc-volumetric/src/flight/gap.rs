@@ -79,3 +79,92 @@ impl<L: Lane> Orbit<L> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::Body;
+    use crate::drag::Drag;
+    use crate::flight::OneRim;
+    use crate::flight::tests::motion;
+    use coinmc_core::Coin;
+    use coinmc_testkit::Dice;
+    use nalgebra::{Rotation3, Vector3};
+
+    /// The derivative of several numbers at once.
+    fn rates<const N: usize>(t: f64, of: impl Fn(f64) -> [f64; N]) -> [f64; N] {
+        let h = 1e-4;
+        let [two, one, minus_one, minus_two] = [2.0, 1.0, -1.0, -2.0].map(|i| of(t + i * h));
+        std::array::from_fn(|i| {
+            (8.0 * (one[i] - minus_one[i]) - (two[i] - minus_two[i])) / (12.0 * h)
+        })
+    }
+
+    /// The axis turns about Ω, the gap is the height of the lowest point of both rims, or of the one rim, and its rates are
+    /// those that differences give, in air and without.
+    #[test]
+    fn the_gap_and_its_rates_are_those_of_the_lowest_point() {
+        for trial in 0..300 {
+            let mut dice = Dice::new(851, trial);
+            let body = Body::new(&Coin::cylinder(dice.scale(0.1, 5.0), 0.01).expect("a good coin"));
+            let mut start = motion(&body, trial, false);
+            for spin in [&mut start.ox, &mut start.oy, &mut start.oz] {
+                *spin = dice.between(-3.0, 3.0);
+            }
+            let drag = Drag {
+                linear: dice.between(-0.7, 0.7).max(0.0),
+                angular: dice.between(-0.7, 0.7).max(0.0),
+            };
+            let orbit = Orbit::new(&start, drag);
+            let t = dice.between(0.1, 1.0);
+            let now = orbit.gap(&body, t);
+            if now.sin < 0.1 || now.uz.abs() < 0.01 {
+                continue;
+            }
+            let turned = if drag.angular > 0.0 {
+                -libm::expm1(-drag.angular * t) / drag.angular
+            } else {
+                t
+            };
+            let about = Vector3::new(start.ox, start.oy, start.oz);
+            let axis = Rotation3::new(about * turned) * Vector3::new(start.sin, 0.0, start.cos);
+            let seen = Vector3::new(now.across[0], now.across[1], now.uz);
+            assert!((axis - seen).norm() < 1e-12 && (now.sin - axis.xy().norm()).abs() < 1e-12);
+            let (z, vz) = orbit.fall(t);
+            assert_eq!((now.z, now.vz), (z, vz));
+            let edge = body.radius * now.sin;
+            assert!((now.height - (z - body.half * now.uz.abs() - edge)).abs() < 1e-14 * (1.0 + z));
+
+            let end = if dice.chance() { 1.0 } else { -1.0 };
+            let one = OneRim {
+                radius: 0.8,
+                half: 0.3,
+                end,
+            };
+            let other = orbit.gap(&one, t);
+            let low = z - end * 0.3 * now.uz - 0.8 * now.sin;
+            assert!((other.height - low).abs() < 1e-14 * (1.0 + z));
+
+            let numbers = |gap: &Gap<f64>| {
+                let [x, y] = gap.across;
+                [gap.height, gap.slope, gap.uz, gap.sin, x, y]
+            };
+            let given = |gap: &Gap<f64>| {
+                let [x, y] = gap.across_rate;
+                [gap.slope, gap.curvature, gap.uz_rate, gap.sin_rate, x, y]
+            };
+            for (found, expected) in [
+                (given(&now), rates(t, |t| numbers(&orbit.gap(&body, t)))),
+                (given(&other), rates(t, |t| numbers(&orbit.gap(&one, t)))),
+            ] {
+                for (found, expected) in found.into_iter().zip(expected) {
+                    let size = 1.0 + about.norm().powi(2) / (now.sin * now.sin);
+                    assert!((found - expected).abs() < 1e-8 * size, "{found} {expected}");
+                }
+            }
+            let (first, at_start) = (orbit.first_gap(&body), orbit.gap(&body, 0.0));
+            let off = (0..6).map(|i| (given(&first)[i] - given(&at_start)[i]).abs());
+            assert!(off.fold(0.0, f64::max) < 1e-14 * (1.0 + at_start.curvature.abs()));
+        }
+    }
+}

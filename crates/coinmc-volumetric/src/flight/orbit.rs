@@ -293,6 +293,7 @@ mod tests {
     use super::*;
     use crate::toss::tests::{launch, model};
     use coinmc_testkit::Dice;
+    use nalgebra::Vector3;
 
     /// A flight whose time is counted from a later instant is the same flight, with drag and without.
     #[test]
@@ -333,6 +334,62 @@ mod tests {
                 .map(|(now, then): (_, f64)| (now - then).abs());
             assert!(off.fold(0.0, f64::max) < 1e-12 * (1.0 + before * start));
             assert!((rate - before).abs() < 1e-13 * before);
+        }
+    }
+
+    /// The time scales of a flight add up as rates: that of falling, 1, of turning, w, and that at which the axis comes
+    /// to the vertical or becomes horizontal, whichever is nearer.
+    #[test]
+    fn short_steps_are_shorter_than_anything_that_may_happen() {
+        let model = model();
+        for number in 0..200 {
+            let toss = model.launch(&launch(&mut Dice::new(854, number), None));
+            let m = &toss.motion;
+            let orbit = Orbit::new(m, model.dynamics.drag);
+            let about = Vector3::new(m.ox, m.oy, m.oz);
+            let speed = about.cross(&Vector3::new(m.sin, 0.0, m.cos)).norm();
+            let share = 0.013;
+            let rates = share / orbit.short_time(m, share);
+            let ways = rates - 1.0 - about.norm();
+            assert!((ways / speed - 1.0 / (m.sin * m.cos)).abs() < 1e-9 * rates / speed);
+            assert!(rates > speed / m.sin && rates > speed / m.cos);
+
+            // the error of a Newton step is of third order in the step over the shortest of these times
+            let fastest = 1.0 + about.norm() + speed / m.sin;
+            let step = libm::cbrt(8e-15) / fastest;
+            for sign in [1.0, -1.0] {
+                assert!(orbit.resolves(0.99 * sign * step, m.sin));
+                assert!(!orbit.resolves(1.01 * sign * step, m.sin));
+            }
+        }
+    }
+
+    /// Whatever the speed of the centre and the drag, it is pulled down by no more than the strongest pull and by no less
+    /// than the weakest from then on.
+    #[test]
+    fn the_centre_is_pulled_within_the_bounds() {
+        let model = model();
+        for number in 0..200 {
+            let mut dice = Dice::new(855, number);
+            let toss = model.launch(&launch(&mut dice, None));
+            let drag = Drag {
+                linear: dice.between(-0.7, 0.7).max(0.0),
+                angular: 0.0,
+            };
+            let mut motion = toss.motion;
+            motion.vz = dice.between(-3.0, 3.0);
+            let orbit = Orbit::new(&motion, drag);
+            let (strongest, weakest) = (
+                orbit.strongest_pull(motion.vz),
+                orbit.weakest_pull(motion.vz),
+            );
+            for i in 0..50 {
+                let t = 0.1 * f64::from(i);
+                let pull = (orbit.fall(t).1 - orbit.fall(t + 1e-4).1) / 1e-4;
+                assert!(weakest - 1e-9 < pull && pull < strongest + 1e-9, "{pull}");
+            }
+            let soon = (orbit.fall(0.0).1 - orbit.fall(1e-6).1) / 1e-6;
+            assert!(motion.vz < 0.0 || (soon - strongest).abs() < 1e-4);
         }
     }
 }

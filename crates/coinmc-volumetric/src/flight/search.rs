@@ -395,3 +395,6 @@ fn first_root<L: Lane>(gap: L, slope: L, bend: L) -> L {
     let exists = real & zero.lt(denominator);
     L::select(exists, numerator / denominator, L::splat(NEVER))
 }
+
+#[cfg(test)]
+mod tests;

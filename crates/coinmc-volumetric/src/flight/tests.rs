@@ -9,7 +9,7 @@ use coinmc_core::{Coin, Domain, Stream, UniformSource};
 use std::array::from_fn;
 
 /// In the air, or just after a bounce.
-fn motion(body: &Body, trial: u64, rebounds: bool) -> Motion<f64> {
+pub(super) fn motion(body: &Body, trial: u64, rebounds: bool) -> Motion<f64> {
     let uniforms = Stream::new(310, Domain::Launch, 0).toss(trial);
     let mut uniforms = uniforms;
     let mut at = |i: u32, from: f64, to: f64| from + (to - from) * uniforms.uniform(i);
