@@ -285,9 +285,9 @@ mod tests {
             let [retry, decided, stays, lifts_off, nearly_at_rest] = reasons;
             let stage = ImpactStage {
                 retry,
-                decided,
                 stays,
                 lifts_off,
+                decided,
                 nearly_at_rest,
                 ..ImpactStage::default()
             };
