@@ -62,6 +62,8 @@ mod place;
 mod pull;
 mod residue;
 mod restitution;
+#[cfg(test)]
+mod rigid;
 mod rough;
 mod scalar;
 mod series;

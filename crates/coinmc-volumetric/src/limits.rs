@@ -52,3 +52,28 @@ impl Limits {
         L::splat(self.time).lt(time)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::four::Four;
+
+    /// As many impacts and steps as the settings allow, no shorter step than the shortest, and time up to its limit.
+    #[test]
+    fn limits_are_those_of_the_settings() {
+        let limits = Limits::new(&Settings {
+            max_impacts: 5,
+            max_steps: 7,
+            time_limit: 12.5,
+            ..Settings::default()
+        });
+        let impacts = [0, 4, 5].map(|impacts| limits.no_impact_left(impacts));
+        assert_eq!(impacts, [false, false, true]);
+        let steps = [0, 6, 7, 8].map(|steps| limits.no_step_left(steps));
+        assert_eq!(steps, [false, false, true, true]);
+        let tried = limits.allow_step(Four([0.1, 0.1, 0.9e-13, 1.1e-13]), Four([6., 7., 1., 1.]));
+        assert_eq!(tried.0, [true, false, false, true]);
+        let late = limits.is_late(Four([0.0, 12.5, 12.6, f64::NAN]));
+        assert_eq!(late.0, [false, false, true, false]);
+    }
+}

@@ -315,3 +315,151 @@ impl<L: Lane> Motion<L> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rigid::Rigid;
+    use nalgebra::Vector3;
+
+    /// Rims, tilts, velocities and angular velocities without special values.
+    fn coins() -> impl Iterator<Item = (Body, Rigid)> {
+        [(0.0, 0.4), (0.15, 0.4), (0.15, 1.3)]
+            .into_iter()
+            .map(|(rim, tilt)| {
+                let body = Rigid::generic_body(rim);
+                let velocity = Vector3::new(0.3, -0.7, -1.1);
+                let omega = Vector3::new(1.7, -2.3, 0.9);
+                (body, Rigid::new(&body, tilt, velocity, omega))
+            })
+    }
+
+    fn near(found: f64, expected: f64) {
+        assert!(
+            (found - expected).abs() < 1e-13,
+            "{found} instead of {expected}"
+        );
+    }
+
+    /// Ω is the angular momentum over I_t, from which the angular velocity comes back.
+    #[test]
+    fn the_rotation_vector_is_that_of_the_angular_momentum() {
+        for (body, coin) in coins() {
+            let factor = body.axial_factor(true);
+            let (motion, spin) = coin.folded(factor, 1.0);
+            let expected = coin.angular_momentum() / body.kt;
+            near(motion.ox, expected.x);
+            near(motion.oy, expected.y);
+            near(motion.oz, expected.z);
+            let again = motion.spin(factor);
+            near(again.axial, spin.axial);
+            near(again.turn, spin.turn);
+            near(again.tilt, spin.tilt);
+            near(motion.turning(&spin), coin.omega.z);
+        }
+    }
+
+    /// The lowest point, its height and its velocity v + ω × r are those of the coin in vectors.
+    #[test]
+    fn the_contact_point_moves_with_the_coin() {
+        for (body, coin) in coins() {
+            let (motion, spin) = coin.folded(body.axial_factor(true), 1.0);
+            let point = motion.contact_point(&body, &spin);
+            let (arm, velocity) = (coin.arm, coin.at_contact());
+            near(point.rx, arm.x);
+            near(point.rz, arm.z);
+            near(point.slip_x, velocity.x);
+            near(point.slip_y, velocity.y);
+            near(point.approach, velocity.z);
+            near(motion.rest_height(&body), -arm.z - body.rim);
+            near(
+                point.spin * point.cos - point.turn * point.sin,
+                coin.omega.z,
+            );
+        }
+    }
+
+    /// An impulse with friction of all kinds changes the motion as Newton and Euler have it, and its work is the
+    /// kinetic energy that the coin gains.
+    #[test]
+    fn an_impulse_changes_momentum_and_angular_momentum() {
+        let p = Impulse {
+            x: 0.31,
+            y: -0.53,
+            z: 1.7,
+            contour: 0.11,
+            pivoting: -0.07,
+        };
+        for (body, coin) in coins() {
+            let factor = body.axial_factor(true);
+            let (mut motion, mut spin) = coin.folded(factor, 1.0);
+            let point = motion.contact_point(&body, &spin);
+            near(motion.kinetic(&body, &spin), coin.kinetic());
+            near(motion.energy(&body, &spin), coin.kinetic() + 1.0);
+            motion.apply_impulse(&mut spin, &body, &point, p);
+            motion.set_spin(&spin, factor);
+            let after = coin.after(&p);
+            let (expected, turns) = after.folded(factor, 1.0);
+            for (found, expected) in motion.columns().into_iter().zip(expected.columns()) {
+                near(found, expected);
+            }
+            for (found, expected) in spin.columns().into_iter().zip(turns.columns()) {
+                near(found, expected);
+            }
+            near(p.work(&body, &point), after.kinetic() - coin.kinetic());
+        }
+    }
+
+    /// Energy above the cap is taken from all velocities in the same proportion; what is below it stays.
+    #[test]
+    fn a_cap_leaves_the_energy_and_the_directions() {
+        for (body, coin) in coins() {
+            let (z, before) = (0.6, 1.9);
+            let (mut motion, mut spin) = coin.folded(1.0, z);
+            let (was, turned) = (motion, spin);
+            motion.cap_energy(&body, &mut spin, before);
+            near(motion.energy(&body, &spin), before);
+            let share = motion.vx / was.vx;
+            assert!(0.0 < share && share < 1.0, "{share}");
+            for (new, old) in [
+                (motion.vy, was.vy),
+                (motion.vz, was.vz),
+                (spin.axial, turned.axial),
+                (spin.turn, turned.turn),
+                (spin.tilt, turned.tilt),
+            ] {
+                near(new, share * old);
+            }
+            near(motion.z, z);
+            let capped = (motion.columns(), spin.columns());
+            motion.cap_energy(&body, &mut spin, before + 0.5);
+            assert_eq!((motion.columns(), spin.columns()), capped);
+            // the height alone takes more: the coin comes to rest
+            motion.cap_energy(&body, &mut spin, 0.5 * z);
+            assert_eq!(motion.kinetic(&body, &spin), 0.0);
+        }
+    }
+
+    /// Turning the frame keeps every vector, seen along the new axes.
+    #[test]
+    fn a_turned_frame_shows_the_same_vectors() {
+        for (body, coin) in coins() {
+            let (was, _) = coin.folded(body.axial_factor(true), 1.0);
+            let (ny, nx) = libm::sincos(0.7);
+            let mut turned = was;
+            turned.align(nx, ny);
+            let (x, y) = (Vector3::new(nx, ny, 0.0), Vector3::new(-ny, nx, 0.0));
+            let (v, o) = (coin.velocity, Vector3::new(was.ox, was.oy, was.oz));
+            near(turned.vx, v.dot(&x));
+            near(turned.vy, v.dot(&y));
+            near(turned.ox, o.dot(&x));
+            near(turned.oy, o.dot(&y));
+            let (mut half, mut reversed) = (was, was);
+            half.align(-1.0, 0.0);
+            reversed.reverse_frame();
+            for (half, reversed) in half.columns().into_iter().zip(reversed.columns()) {
+                near(half, reversed);
+            }
+        }
+    }
+}

@@ -311,3 +311,60 @@ impl<const STICKS: bool, const DRAGS: bool, const HOLDS: bool> Work
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::Usage;
+
+    fn slot() -> Slot {
+        let mut slot = Slot::empty();
+        slot.phase.state = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
+        slot.phase.now.state = [1.1, 1.2, 1.3, 1.4, 1.5, 1.6];
+        (slot.phase.now.press, slot.phase.now.jam_margin) = (2.1, 2.2);
+        (slot.phase.length, slot.phase.ceiling) = (3.1, 3.2);
+        slot.usage = Usage {
+            steps: 41,
+            jams: 5,
+            time: 6.1,
+        };
+        slot
+    }
+
+    /// A lane holds what its coin was put in with, and nothing of the coin before it; the other lanes keep their own.
+    #[test]
+    fn a_lane_belongs_to_the_coin_that_is_put_there() {
+        let search = TiltSearch::within(&slot().phase, &[2.0; 6], 0.7, 1.5);
+        assert!(search.is_some());
+        let searching = Slot {
+            tilt_search: search,
+            ..slot()
+        };
+        for lane in 0..WIDTH {
+            let bit = 1 << lane;
+            let mut stage = ContactStage::new();
+            (stage.retry, stage.searching, stage.occupied) = (Bits::MAX, Bits::MAX, 0b0110);
+            stage.put(lane, 9, &slot());
+            assert_eq!((stage.retry, stage.searching), (!bit, !bit));
+            assert_eq!(stage.free(), !(0b0110 | bit));
+            assert_eq!((stage.slot(lane), stage.length[lane]), (9, 3.1));
+            stage.put(lane, 9, &searching);
+            assert_eq!((stage.retry, stage.searching), (Bits::MAX, Bits::MAX));
+            (stage.retry, stage.searching) = (0, 0);
+            stage.put(lane, 9, &searching);
+            assert_eq!((stage.retry, stage.searching), (bit, bit));
+            assert_eq!(stage.length[lane], 0.7);
+            assert_eq!(stage.ceiling[lane], 3.2);
+            let mut copy = Slot::empty();
+            stage.copy_state(lane, &mut copy);
+            let (phase, expected) = (&copy.phase, &slot().phase);
+            assert_eq!(phase.state, expected.state);
+            assert_eq!(phase.now.state, expected.now.state);
+            assert_eq!((phase.now.press, phase.now.jam_margin), (2.1, 2.2));
+            assert_eq!((copy.usage.steps, copy.usage.time), (41, 6.1));
+        }
+        let mut stage = ContactStage::new();
+        stage.occupied = 0b1011;
+        assert_eq!(stage.load(&[7, 8]), 5);
+    }
+}

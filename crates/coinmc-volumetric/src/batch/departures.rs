@@ -37,3 +37,27 @@ impl Departures {
         start_of_flight(&load::<L, START>(&self.start))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each lane keeps its own kind of departure, in whatever order they are set.
+    #[test]
+    fn lanes_keep_their_kinds_of_departure() {
+        let mut departures = Departures::default();
+        for (lane, departure) in [
+            (6, Departure::Launched),
+            (1, Departure::LiftOff),
+            (3, Departure::Rebound),
+            (2, Departure::Launched),
+            (7, Departure::LiftOff),
+        ] {
+            departures.set_kind(lane, departure);
+        }
+        assert_eq!(
+            (departures.launched, departures.lifts_off),
+            (0b0100_0100, 0b1000_0010)
+        );
+    }
+}

@@ -177,3 +177,78 @@ impl<const DRAGS: bool> Work for Step<'_, DRAGS> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rigid::Rigid;
+    use nalgebra::Vector3;
+
+    struct Collect<'a> {
+        flights: &'a mut Flights,
+        to: &'a mut Arrivals,
+    }
+
+    impl Work for Collect<'_> {
+        type Output = usize;
+
+        #[inline(always)]
+        fn run<L: Wide>(self) -> usize {
+            self.flights.collect::<L>(self.to)
+        }
+    }
+
+    /// Eleven flights at a height, of slots 10 to 17 and three of them again.
+    fn eleven(lanes: Lanes, body: &Body) -> Flights {
+        let none = Drag {
+            linear: 0.0,
+            angular: 0.0,
+        };
+        let coin = Rigid::new(
+            body,
+            0.4,
+            Vector3::new(0.3, -0.7, 2.0),
+            Vector3::new(1.7, -2.3, 0.9),
+        );
+        let (motion, spin) = coin.folded(1.3, 9.0);
+        let mut departures = Departures::default();
+        for lane in 0..WIDTH {
+            departures.put(lane, 10 + lane, &motion, &spin);
+        }
+        let mut flights = Flights::none();
+        assert_eq!((flights.vacant(), flights.any_on_search()), (64, false));
+        flights.begin(lanes, body, none, &departures, Bits::MAX);
+        flights.begin(lanes, body, none, &departures, 0b1000_0110);
+        flights
+    }
+
+    /// Finished flights are collected in the order of their lanes, which they leave. Lanes without a flight repeat a
+    /// flight that has been collected.
+    #[test]
+    fn finished_flights_are_collected_and_leave_their_lanes() {
+        let body = Rigid::generic_body(0.0);
+        for lanes in Lanes::wide() {
+            for (finished, slots) in [
+                (0b0000_0001_0010, vec![11, 14]),
+                (0b0101_0000_1000, vec![13, 11, 17]),
+                (0b0001_1111_1111, vec![10, 11, 12, 13, 14, 15, 16, 17]),
+            ] {
+                let mut flights = eleven(lanes, &body);
+                assert_eq!((flights.vacant(), flights.finished()), (53, 0), "{lanes}");
+                flights.finished = finished;
+                let mut arrivals = Arrivals::default();
+                let (to, count) = (&mut arrivals, slots.len());
+                let flights = &mut flights;
+                assert_eq!(lanes.enter(Collect { flights, to }), count, "{lanes}");
+                for lane in 0..WIDTH {
+                    let slot = arrivals.slots.get(lane);
+                    let expected = slots.get(lane);
+                    assert!(expected.map_or(slots.contains(&slot), |expected| slot == *expected));
+                }
+                assert_eq!(flights.vacant(), 53 + count, "{lanes}");
+                let left = usize::from(finished == 0b0001_1111_1111);
+                assert_eq!(flights.finished(), left, "{lanes}");
+            }
+        }
+    }
+}

@@ -251,3 +251,125 @@ impl<I: ImpactLaw> Work for Bounce<'_, I> {
         stage.nearly_at_rest = L::bits(lies | stands);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::columns::put_start;
+    use super::*;
+    use crate::laws::Moreau;
+    use crate::rigid::Rigid;
+    use crate::settings::Settings;
+    use coinmc_core::{Coin, Scene, Surface};
+    use nalgebra::Vector3;
+
+    fn landed(tilt: f64) -> Toss {
+        let body = Rigid::generic_body(0.0);
+        let coin = Rigid::new(
+            &body,
+            tilt,
+            Vector3::new(0.3, -0.7, -1.1),
+            Vector3::new(1.7, -2.3, 0.9),
+        );
+        let mut toss = Toss::still();
+        (toss.motion, toss.spin) = coin.folded(1.3, 0.9);
+        toss
+    }
+
+    /// A lane flies unless any one of the five reasons, or any two of them, keep it.
+    #[test]
+    fn lanes_fly_that_nothing_keeps() {
+        for (first, second) in (0..5).flat_map(|first| (0..5).map(move |second| (first, second))) {
+            let mut reasons = [0; 5];
+            reasons[first] |= 0b0001_0100;
+            reasons[second] |= 0b0001_0010;
+            let [retry, decided, stays, lifts_off, nearly_at_rest] = reasons;
+            let stage = ImpactStage {
+                retry,
+                stays,
+                lifts_off,
+                decided,
+                nearly_at_rest,
+                ..ImpactStage::default()
+            };
+            assert_eq!(stage.flies(), 0b1110_1001, "{first} {second}");
+            assert_eq!(stage.retry(), retry);
+        }
+        let stage = ImpactStage {
+            gave_up: 0b0101,
+            level: 0b0011,
+            ..ImpactStage::default()
+        };
+        assert_eq!(stage.unusual(), 0b0111);
+        let gave_up: Vec<bool> = (0..4).map(|lane| stage.gave_up(lane)).collect();
+        assert_eq!(gave_up, [true, false, true, false]);
+    }
+
+    /// A toss gets back what was put into its lane, and the motion with which its flight began, of which the angular
+    /// velocity is a part.
+    #[test]
+    fn a_lane_gives_back_the_motions_of_its_toss() {
+        let mut stage = ImpactStage::default();
+        let (put, start) = (landed(0.4), landed(1.1));
+        stage.put(3, 17, &put);
+        put_start(&mut stage.arrivals.start, 3, &start.motion, &start.spin);
+        assert_eq!(stage.slot(3), 17);
+        let mut toss = Toss::still();
+        stage.copy_motion(3, &mut toss);
+        assert_eq!(toss.motion.columns(), put.motion.columns());
+        assert_eq!(toss.spin.columns(), put.spin.columns());
+        stage.copy_start(3, &mut toss, 1.3);
+        assert_eq!(toss.motion.columns(), start.motion.columns());
+        for (found, expected) in toss.spin.columns().into_iter().zip(start.spin.columns()) {
+            assert!((found - expected).abs() < 1e-14, "{found} {expected}");
+        }
+    }
+
+    /// Impacts in lanes are those of the same coins one by one, and only coins whose lower face or lower side is within
+    /// the negligible angle of the ground need more than that.
+    #[test]
+    fn impacts_in_lanes_are_those_of_single_coins() {
+        let coin = Coin::cylinder(1.2, 0.01).expect("a valid coin");
+        let surface = Surface::new(0.5, 0.3).expect("a valid surface");
+        let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
+        let model = Model::new(&scene, &Settings::default(), Moreau).expect("valid settings");
+        let (body, small) = (model.dynamics.body, model.negligible_rocking);
+        let side = |share: f64| libm::acos(share * small * body.half);
+        let face = |share: f64| libm::asin(share * small * body.radius);
+        let tilts = [
+            0.3,
+            face(0.5),
+            face(2.0),
+            1.0,
+            side(0.5),
+            side(2.0),
+            1.2,
+            0.7,
+        ];
+        for lanes in Lanes::wide() {
+            let mut stage = ImpactStage::default();
+            let mut tosses = tilts.map(landed);
+            for (lane, toss) in tosses.iter_mut().enumerate() {
+                toss.motion.vz *= 1.0 + lane as f64;
+                toss.motion.z = toss.motion.rest_height(&body);
+                stage.put(lane, lane, toss);
+            }
+            stage.bounce(lanes, &model, true);
+            assert_eq!(stage.nearly_at_rest, 0b0001_0010, "{lanes}");
+            for (lane, toss) in tosses.iter().enumerate() {
+                let bounced = model.bounce(&toss.motion, &toss.spin, true);
+                assert_eq!(has(stage.retry, lane), bounced.retry, "{lanes} {lane}");
+                assert_eq!(has(stage.stays, lane), bounced.stays);
+                assert_eq!(has(stage.lifts_off, lane), bounced.lifts_off);
+                let mut after = Toss::still();
+                stage.copy_motion(lane, &mut after);
+                let (motion, spin) = if bounced.retry {
+                    (toss.motion, toss.spin)
+                } else {
+                    (bounced.motion, bounced.spin)
+                };
+                assert_eq!(after.motion.columns(), motion.columns(), "{lanes} {lane}");
+                assert_eq!(after.spin.columns(), spin.columns(), "{lanes} {lane}");
+            }
+        }
+    }
+}

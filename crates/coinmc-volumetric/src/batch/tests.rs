@@ -150,6 +150,21 @@ fn limits_end_the_same_tosses() {
     limited(|settings| settings.tolerance = 1e-9);
 }
 
+/// Limits reached early, so that this is quick: a toss in lanes ends where the same toss alone does.
+#[test]
+fn early_limits_end_the_same_tosses() {
+    let scene = scene(0.85, surface(0.5, 0.3, 0.003));
+    let launches = launches(&scene, Preset::Clean, 24);
+    for (max_impacts, time_limit) in [(3, f64::INFINITY), (u32::MAX, 6.0)] {
+        let settings = Settings {
+            max_impacts,
+            time_limit: f64::min(time_limit, Settings::default().time_limit),
+            ..Settings::default()
+        };
+        agree(&scene, &settings, Moreau, &launches);
+    }
+}
+
 #[test]
 fn invalid_and_extreme_launches() {
     let scene = scene(0.85, surface(0.5, 0.3, 0.01));

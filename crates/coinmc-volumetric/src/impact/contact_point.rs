@@ -140,3 +140,39 @@ impl ContactPoint<f64> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rigid::Rigid;
+    use nalgebra::Vector3;
+
+    /// K is what impulses along x, y and z change of the contact point's velocity v + ω × r; at constant normal
+    /// velocity along x the inverse mass is α.
+    #[test]
+    fn the_matrix_is_the_answer_to_unit_impulses() {
+        for (rim, tilt) in [(0.0, 0.4), (0.0, 1.2), (0.15, 0.4), (0.15, 1.2)] {
+            let body = Rigid::generic_body(rim);
+            let coin = Rigid::new(&body, tilt, Vector3::zeros(), Vector3::zeros());
+            let (motion, spin) = coin.folded(1.0, 1.0);
+            let k = motion.contact_point(&body, &spin).matrix(&body);
+            let answer = |impulse| coin.pushed(impulse, Vector3::zeros()).at_contact();
+            for (impulse, expected) in [
+                (Vector3::x(), Vector3::new(k.xx, 0.0, k.xz)),
+                (Vector3::y(), Vector3::new(0.0, k.yy, 0.0)),
+                (Vector3::z(), Vector3::new(k.xz, 0.0, k.zz)),
+            ] {
+                let wrong = answer(impulse) - expected;
+                assert!(wrong.norm() < 1e-13, "{rim} {tilt}: {wrong}");
+            }
+            let Condensed {
+                mass_z,
+                coupling,
+                alpha,
+            } = k.condensed();
+            let wrong = answer(Vector3::new(1.0, 0.0, -coupling)) - Vector3::new(alpha, 0.0, 0.0);
+            assert!(wrong.norm() < 1e-13, "{rim} {tilt}: {wrong}");
+            assert!((answer(Vector3::new(0.0, 0.0, mass_z)).z - 1.0).abs() < 1e-13);
+        }
+    }
+}

@@ -256,8 +256,55 @@ impl<L: Lane> FrictionMoments<L> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rigid::Rigid;
     use coinmc_core::Coin;
     use coinmc_testkit::Dice;
+    use nalgebra::Vector3;
+
+    /// The rates are ω_x and ω_z, and the inverse masses what an impulse along y and the torques about x and z change
+    /// of them and of slip_y, as vectors have it.
+    #[test]
+    fn inverse_masses_are_answers_to_unit_torques() {
+        for (rim, tilt) in [(0.0, 0.4), (0.0, 1.2), (0.15, 0.4), (0.15, 1.2)] {
+            let body = Rigid::generic_body(rim);
+            let (velocity, omega) = (Vector3::new(0.3, -0.7, -1.1), Vector3::new(1.7, -2.3, 0.9));
+            let coin = Rigid::new(&body, tilt, velocity, omega);
+            let (motion, spin) = coin.folded(1.0, 1.0);
+            let point = motion.contact_point(&body, &spin);
+            let r = RimRates::rates(&body, &point);
+            let changes = |impulse, torque| {
+                let after = coin.pushed(impulse, torque);
+                let slip_y = after.at_contact().y - coin.at_contact().y;
+                let turns = after.omega - omega;
+                (slip_y, turns.x, turns.z)
+            };
+            let (slip_y, roll, pivot) = changes(Vector3::y(), Vector3::zeros());
+            let (slip_c, roll_c, pivot_c) = changes(Vector3::zeros(), -Vector3::x());
+            let (slip_p, roll_p, pivot_p) = changes(Vector3::zeros(), -Vector3::z());
+            let (y, c, p) = (0.3, 0.07, -0.11);
+            let moved = coin.pushed(Vector3::y() * y, Vector3::new(-c, 0.0, -p));
+            let without = coin.pushed(Vector3::y() * y, Vector3::zeros());
+            for (found, expected) in [
+                (r.roll, omega.x),
+                (r.pivot, omega.z),
+                (r.roll_y, roll),
+                (r.pivot_y, pivot),
+                (-r.roll_roll, roll_c),
+                (-r.roll_pivot, pivot_c),
+                (-r.roll_pivot, roll_p),
+                (-r.pivot_pivot, pivot_p),
+                (-r.slip_y(1.0, 0.0), slip_c),
+                (-r.slip_y(0.0, 1.0), slip_p),
+                (point.matrix(&body).yy, slip_y),
+                (
+                    0.5 * r.work(y, c, p),
+                    moved.kinetic() - without.kinetic() + y * r.slip_y(c, p) * 0.5,
+                ),
+            ] {
+                assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+            }
+        }
+    }
 
     /// The derivative with respect to σ, with which Newton's method goes, is that of the solution itself,
     /// by differences over so little that no limit is reached between.

@@ -290,8 +290,69 @@ impl<L: Lane> Problem<L> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rigid::Rigid;
     use coinmc_core::Coin;
     use coinmc_testkit::Dice;
+    use nalgebra::Vector3;
+
+    /// The lowest point rebounds with e of its speed, and every friction opposes what is left of the rate that it acts
+    /// against, or stops it: in the motion of a coin in vectors after the impulse.
+    #[test]
+    fn friction_opposes_what_is_left_after_the_impact() {
+        let (mut slides, mut sticks, mut held, mut runs) = (0, 0, 0, 0);
+        for trial in 0..2000 {
+            let mut dice = Dice::new(324, trial);
+            let body = Rigid::generic_body(dice.pick(&[0.0, 0.15]));
+            let mut length = || dice.pick(&[0.0, 1.0]) * dice.scale(0.003, 0.2);
+            let friction = Friction {
+                contour: length(),
+                pivoting: length(),
+                mu: dice.between(0.05, 0.6),
+            };
+            let tilt = dice.between(0.2, 1.5);
+            let mut coin = Rigid::new(&body, tilt, dice.vector(1.0), dice.vector(2.0));
+            let e = dice.between(0.0, 0.6);
+            let speed = dice.between(0.3, 1.5);
+            coin.velocity.z -= coin.at_contact().z + speed;
+            let (motion, spin) = coin.folded(1.0, 1.0);
+            let point = motion.contact_point(&body, &spin);
+            let p = Moreau.impulse(&body, &friction, &point, e);
+            let after = coin.after(&p);
+            let slip = after.at_contact();
+            assert!((slip.z - e * speed).abs() < 1e-10, "trial {trial}");
+            let guard = ChatterjeeRuina.impulse(&body, &friction, &point, e);
+            if (p.x, p.y) == (guard.x, guard.y) {
+                continue;
+            }
+            let pull = Vector3::new(p.x, p.y, 0.0);
+            let along = Vector3::new(slip.x, slip.y, 0.0);
+            let limit = friction.mu * p.z;
+            if along.norm() < 1e-9 {
+                sticks += 1;
+                assert!(pull.norm() < limit * (1.0 + 1e-9), "trial {trial}");
+            } else {
+                slides += 1;
+                let wrong = (pull + along.normalize() * limit).norm();
+                assert!(wrong < 1e-8, "trial {trial}: {wrong:e}");
+            }
+            let limits = [friction.contour * p.z, friction.pivoting * p.z];
+            let turns = [after.omega.x, after.omega.z];
+            for ((friction, turn), limit) in
+                [p.contour, p.pivoting].into_iter().zip(turns).zip(limits)
+            {
+                if turn.abs() < 1e-9 {
+                    held += 1;
+                    assert!(friction.abs() < limit + 1e-9, "trial {trial}");
+                } else {
+                    runs += u32::from(limit > 0.0);
+                    let wrong = friction - limit * turn.signum();
+                    assert!(wrong.abs() < 1e-9, "trial {trial}: {wrong:e}");
+                }
+            }
+        }
+        let counts = [slides, sticks, held, runs];
+        assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
+    }
 
     /// Newton's step is φ/φ' of φ = μ p_z/|p_t| − 1, by differences: with and without friction lengths.
     #[test]

@@ -105,3 +105,65 @@ fn first_root(path: &Path, mut high: f64, end: f64, distance: impl Fn(&Step) -> 
     }
     root
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::path::Line;
+    use super::*;
+
+    /// A path whose parameter is the normal impulse.
+    fn straight(length: f64) -> Path {
+        let line = Line {
+            x: 0.3,
+            y: -0.2,
+            normal: -1.1,
+            half_gain: 0.7,
+        };
+        Path::straight(line, length)
+    }
+
+    /// The root is found to full precision for flat, steep and broken functions, too, with which secants alone do not
+    /// get anywhere.
+    #[test]
+    fn roots_of_hard_functions_are_found() {
+        let path = straight(1.0);
+        let functions: [fn(f64) -> f64; 5] = [
+            |z| 0.3 - z,
+            |z| (0.3 - z).powi(25),
+            |z| (0.3 - z).powi(9),
+            |z| 1.0 - libm::exp(60.0 * (z - 0.3)),
+            |z| if z < 0.3 { 1.0 } else { -1e-12 },
+        ];
+        for (i, function) in functions.iter().enumerate() {
+            let root = first_root(&path, 1.0, function(1.0), |s| function(s.z));
+            assert!((root - 0.3).abs() < 1e-12, "function {i}: {root}");
+        }
+        for never in [-1.0, 0.0, f64::NAN] {
+            assert_eq!(first_root(&path, 1.0, -1.0, |_| never), 0.0);
+        }
+    }
+
+    /// Of several events the first one ends the piece, and what comes later is not seen. A distance that is negative
+    /// between only is seen where it bends.
+    #[test]
+    fn the_first_event_ends_the_piece() {
+        let path = straight(2.0);
+        let mut cut = Cut::new(&path);
+        assert!(cut.event == Event::Length && cut.step.z == 2.0);
+        cut.by(Event::EndOfCompression, |s| 1.7 - s.z);
+        cut.by(Event::EndOfImpact, |s| 1.9 - s.z);
+        assert_eq!(cut.event, Event::EndOfCompression);
+        let step = cut.step;
+        assert!((step.z - 1.7).abs() < 1e-14);
+        assert!((step.x - 0.3 * 1.7).abs() < 1e-14 && (step.y + 0.2 * 1.7).abs() < 1e-14);
+        assert!((step.work - (0.7 * 1.7 - 1.1) * 1.7).abs() < 1e-14);
+        // below 0 from .6 to 1.2
+        let bent = |s: &Step| (s.z - 0.6) * (s.z - 1.2);
+        cut.by(Event::Roll, bent);
+        assert_eq!(cut.event, Event::EndOfCompression);
+        cut.by_bent(Event::Roll, bent);
+        assert!(cut.event == Event::Roll && (cut.step.z - 0.6).abs() < 1e-14);
+        cut.by_bent(Event::Pivot, |s| 0.5 - s.z);
+        assert!(cut.event == Event::Pivot && (cut.step.z - 0.5).abs() < 1e-14);
+    }
+}

@@ -293,4 +293,46 @@ mod tests {
             );
         }
     }
+
+    /// A step is the sum of the terms of ξ, ξ², … up to ξ¹⁸.
+    #[test]
+    fn a_step_is_the_sum_of_the_series() {
+        let mut terms = [Step::NONE; ORDER];
+        for (i, term) in terms.iter_mut().enumerate() {
+            let one = 1.0 + i as f64;
+            *term = Step {
+                x: 1.0 / one,
+                y: -0.3,
+                z: one,
+                work: 0.7 - 0.1 * one,
+            };
+        }
+        let step = Curve(terms).step(0.7);
+        let mut sum = [0.0; 4];
+        let mut power = 0.7;
+        for term in &terms {
+            for (sum, term) in sum.iter_mut().zip([term.x, term.y, term.z, term.work]) {
+                *sum += power * term;
+            }
+            power *= 0.7;
+        }
+        for (found, expected) in [step.x, step.y, step.z, step.work].into_iter().zip(sum) {
+            assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+        }
+    }
+
+    /// A piece reaches as far as its last term, which falls with the power ORDER − 1, allows, to within a fifth; where
+    /// it is not finite still somewhere.
+    #[test]
+    fn the_reach_is_the_largest_that_is_allowed() {
+        let allowed = 1e-11;
+        for term in [1e-12, 3e-11, 2e-8, 0.7, 4e3] {
+            let at = reach(term, allowed);
+            let last = |at: f64| term * at.powi(17);
+            assert!(last(at) <= allowed, "{term}: {at}");
+            assert!(at == 1.0 || last(at / 0.8) > allowed, "{term}: {at}");
+        }
+        let least = reach(f64::INFINITY, allowed);
+        assert!((1e-6..1e-3).contains(&least), "{least}");
+    }
 }
