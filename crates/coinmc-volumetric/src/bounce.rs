@@ -110,3 +110,118 @@ impl<I: ImpactLaw> Model<I> {
         (motion, spin)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::four::Four;
+    use crate::laws::Moreau;
+    use crate::settings::Settings;
+    use crate::toss::tests::model_of;
+    use coinmc_core::{Coin, Scene, Surface};
+    use coinmc_testkit::Dice;
+    use std::array::from_fn;
+
+    /// Impacts without restitution below 3e-3 sqrt(gD), with one half above.
+    fn model() -> Model<Moreau> {
+        let coin = Coin::cylinder(0.4, 0.0116).expect("a valid coin");
+        let scene = |surface| Scene::new(coin, surface, 9.81).expect("a valid scene");
+        let plane = Surface::new(0.5, 0.3).expect("a valid surface");
+        let unit = crate::body::Units::new(&scene(plane)).speed_m_s();
+        let plane = plane.with_restitution_threshold(3e-3 * unit);
+        model_of(
+            &scene(plane.expect("a valid threshold")),
+            &Settings::default(),
+        )
+    }
+
+    /// A coin whose lowest point comes down at this speed.
+    fn coming_down(model: &Model<Moreau>, dice: &mut Dice, speed: f64) -> (Motion<f64>, Spin<f64>) {
+        let body = &model.dynamics.body;
+        let mut rate = |size: f64| dice.between(-size, size);
+        let spin = Spin {
+            axial: rate(1.0),
+            turn: rate(0.5),
+            tilt: rate(1.5),
+        };
+        let mut motion = Motion::still();
+        (motion.vx, motion.vy) = (rate(0.5), rate(0.5));
+        let (sin, cos) = libm::sincos(dice.between(0.1, 1.5));
+        motion.set_tilt(sin, cos);
+        motion.z = motion.rest_height(body);
+        motion.set_spin(&spin, model.dynamics.axial_factor);
+        motion.vz = -speed - motion.contact_point(body, &spin).approach;
+        (motion, spin)
+    }
+
+    /// After an impact without restitution the coin stays if its contact point presses on the surface, and else lifts
+    /// off. One with restitution rebounds unless it is so slow that what remains of its bounces counts as none; if
+    /// that was tried in vain, it is to be tried again.
+    #[test]
+    fn a_plastic_impact_stays_or_lifts_off() {
+        let model = model();
+        let mut seen = [0; 5];
+        for number in 0..2_000 {
+            let mut dice = Dice::new(543, number);
+            let speed = dice.scale(5e-4, 1.0);
+            let (motion, spin) = coming_down(&model, &mut dice, speed);
+            let found = model.bounce(&motion, &spin, true);
+            let press = model.dynamics.press(&found.motion, &found.spin);
+            let point = found
+                .motion
+                .contact_point(&model.dynamics.body, &found.spin);
+            if speed < 3e-3 {
+                assert_eq!([found.stays, found.lifts_off], [press > 0.0, press <= 0.0]);
+                assert!(!found.retry && point.approach.abs() < 1e-12);
+                seen[usize::from(found.stays)] += 1;
+            } else {
+                assert!(!found.lifts_off);
+                assert!(!found.stays || !found.retry);
+                if found.stays {
+                    // 2 e v/(a (1 − e)) of bounces
+                    assert!(press > 0.0 && 2.0 * speed / press < model.zeno);
+                    assert!(point.approach.abs() < 1e-12);
+                    seen[2] += 1;
+                } else if found.retry {
+                    let again = model.bounce(&motion, &spin, false);
+                    assert!(!again.stays && !again.lifts_off && !again.retry);
+                    seen[3] += 1;
+                } else {
+                    assert!((point.approach - 0.5 * speed).abs() < 1e-12);
+                    seen[4] += 1;
+                }
+            }
+        }
+        assert!(seen.iter().all(|count| *count > 10), "{seen:?}");
+    }
+
+    /// Of four impacts at once, each is what it is alone.
+    #[test]
+    fn impacts_in_lanes_are_those_of_single_coins() {
+        let model = model();
+        for number in 0..500 {
+            let mut dice = Dice::new(544, number);
+            let coins: [_; 4] = from_fn(|_| {
+                let speed = dice.scale(5e-4, 1.0);
+                coming_down(&model, &mut dice, speed)
+            });
+            let motion = Motion::from_columns(&from_fn(|i| {
+                Four(coins.map(|(motion, _)| motion.columns()[i]))
+            }));
+            let spin =
+                Spin::from_columns(&from_fn(|i| Four(coins.map(|(_, spin)| spin.columns()[i]))));
+            let all = model.bounce(&motion, &spin, Mask::splat(true));
+            for (lane, (motion, spin)) in coins.into_iter().enumerate() {
+                let one = model.bounce(&motion, &spin, true);
+                let masks = [all.stays, all.lifts_off, all.retry].map(|mask| mask.0[lane]);
+                assert_eq!(masks, [one.stays, one.lifts_off, one.retry]);
+                if masks != [false, false, true] {
+                    let columns = all.motion.columns().map(|column| column.0[lane]);
+                    assert_eq!(columns, one.motion.columns());
+                    let columns = all.spin.columns().map(|column| column.0[lane]);
+                    assert_eq!(columns, one.spin.columns());
+                }
+            }
+        }
+    }
+}

@@ -154,3 +154,59 @@ impl Settings {
         Ok(settings)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::Law;
+    use crate::toss::tests::generic_scene;
+
+    /// Settings name their law, and tell of it, of the decision and of a threshold of restitution if there is one.
+    #[test]
+    fn settings_tell_what_is_computed() {
+        let plain = generic_scene(|plane| plane);
+        let scene = generic_scene(|plane| {
+            plane
+                .with_restitution_threshold(0.2)
+                .expect("a valid threshold")
+        });
+        let mut told = Vec::new();
+        for law in Law::ALL {
+            for decision in Decision::ALL {
+                let settings = Settings {
+                    law,
+                    decision,
+                    ..Settings::default()
+                };
+                assert_eq!(settings.descriptor().name, "volumetric");
+                assert_eq!(EngineSettings::law(&settings), law.name());
+                let text = settings.explain(&scene);
+                assert!(
+                    text.contains(law.name()) && text.contains("threshold"),
+                    "{text}"
+                );
+                assert_eq!(text.contains("energy alone"), decision == Decision::Energy);
+                assert!(!settings.explain(&plain).contains("threshold"));
+                assert!(!told.contains(&text));
+                told.push(text);
+            }
+        }
+    }
+
+    /// The limit of time is counted in sqrt(D/g), D the distance of the rim from the centre: of a coin with H/R = 1.5
+    /// and R = 8 mm, 1 cm.
+    #[test]
+    fn the_limit_of_time_is_in_units_of_the_coin() {
+        let coin = coinmc_core::Coin::cylinder(1.5, 0.008).expect("a valid coin");
+        let surface = coinmc_core::Surface::new(0.5, 0.3).expect("a valid surface");
+        let scene = Scene::new(coin, surface, 9.0).expect("a valid scene");
+        let settings = Settings {
+            time_limit: 600.0,
+            ..Settings::default()
+        };
+        let limit = settings
+            .flight_limit_s(&scene)
+            .expect("flight in closed form");
+        assert!((limit - 20.0).abs() < 1e-12, "{limit}");
+    }
+}

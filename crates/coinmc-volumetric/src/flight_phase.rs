@@ -139,7 +139,8 @@ impl<L> Model<L> {
 pub(crate) mod tests {
     use super::*;
     use crate::body::Body;
-    use crate::toss::tests::{agree, launch, model};
+    use crate::settings::Settings;
+    use crate::toss::tests::{agree, generic_scene, launch, model, model_of};
     use coinmc_core::State;
     use coinmc_testkit::Dice;
     use nalgebra::{Rotation3, UnitVector3, Vector3};
@@ -210,5 +211,38 @@ pub(crate) mod tests {
             let clear = (0..2_000).all(|i| gap(end * f64::from(i) / 2_000.0) > 0.0);
             assert!(clear);
         }
+    }
+
+    /// In a flight with drag the angular momentum keeps its direction and falls exponentially at its rate, whichever
+    /// face is up; so does the horizontal velocity at its own.
+    #[test]
+    fn drag_takes_angular_momentum_at_its_rate() {
+        let scene = generic_scene(|plane| plane);
+        let model = model_of(&scene, &Settings::default());
+        let (axial, transverse) = (
+            scene.coin.axial_gyration_m2(),
+            scene.coin.transverse_gyration_m2(),
+        );
+        let momentum = |state: &State| {
+            let axis = state.axis.into_inner();
+            let along = axis * state.spin_rad_s.dot(&axis);
+            along * axial + (state.spin_rad_s - along) * transverse
+        };
+        let mut seen_reflected = 0;
+        for number in 0..100 {
+            let mut dice = Dice::new(545, number);
+            let toss = model.launch(&launch(&mut dice, None));
+            let orbit = Orbit::new(&toss.motion, model.dynamics.drag);
+            let t_s = dice.between(0.05, 0.4);
+            let seen = model.in_flight(&toss, &orbit, t_s / model.units.time_s);
+            seen_reflected += i32::from(seen.heads_up != toss.heads_up);
+            let [before, after] = [&toss, &seen].map(|toss| toss.state(&model.units));
+            let expected = momentum(&before) * libm::exp(-1.3 * t_s);
+            let off = (momentum(&after) - expected).norm() / expected.norm();
+            assert!(off < 1e-11, "{off:e}");
+            let expected = before.velocity_m_s.xy() * libm::exp(-0.8 * t_s);
+            assert!((after.velocity_m_s.xy() - expected).norm() < 1e-12);
+        }
+        assert!(seen_reflected > 20);
     }
 }

@@ -193,3 +193,47 @@ impl<L> Model<L> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::contact::line_rates_on;
+    use crate::settings::Settings;
+    use crate::toss::tests::{generic_scene, model_of};
+    use coinmc_core::{Drag, TableTilt};
+
+    /// A coin that friction holds on its side of a tilted table creeps at the speed at which friction balances the
+    /// pull. It counts as held up to twice that speed and the one of sticking; on a level table, up to the latter.
+    #[test]
+    fn a_coin_counts_as_held_up_to_twice_the_creep_that_the_pull_asks_for() {
+        let settings = Settings {
+            stick_speed: 3e-3,
+            ..Settings::default()
+        };
+        let level = model_of(&generic_scene(|plane| plane), &settings);
+        assert_eq!(level.contact_rules().creep, settings.stick_speed);
+        for degrees in [2.0_f64, 7.0, 9.0] {
+            let tilt = TableTilt::new(degrees, 20.0).expect("a valid tilt");
+            let scene = generic_scene(|plane| plane.with_tilt(tilt).expect("a valid tilt"));
+            let scene = scene.with_drag(Drag::new(0.0, 0.0).expect("no drag"));
+            let model = model_of(&scene, &settings);
+            let pulled = model
+                .dynamics
+                .pulled_by([libm::tan(degrees.to_radians()), 0.0]);
+            // by halves: faster than this friction is more than the pull
+            let (mut slow, mut fast) = (0.0, 1.0);
+            for _ in 0..60 {
+                let creep = 0.5 * (slow + fast);
+                let state = [creep, 0.0, 0.0, 0.0];
+                let now = line_rates_on::<false>(&pulled, &state, settings.stick_speed, [0.0; 2]);
+                if now.rates[0] > 0.0 {
+                    slow = creep;
+                } else {
+                    fast = creep;
+                }
+            }
+            let held = settings.stick_speed + 2.0 * slow;
+            let creep = model.contact_rules().creep;
+            assert!((creep / held - 1.0).abs() < 1e-9, "{creep} {held}");
+        }
+    }
+}

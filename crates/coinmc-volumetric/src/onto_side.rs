@@ -101,7 +101,10 @@ impl<L> Model<L> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::toss::tests::model;
+    use crate::motion::{Motion, Spin};
+    use crate::settings::Settings;
+    use crate::toss::tests::{generic_scene, model, model_of, stops_plainly};
+    use coinmc_core::{Coin, Landing, Scene, SideMotion, Surface};
     use coinmc_testkit::Dice;
 
     /// A wheel that rolls keeps its speed; one that slides without spin is left with 1/(1 + k_a/R²) of it, and one
@@ -124,5 +127,107 @@ mod tests {
             toss.spin.axial = -speed / radius;
             assert!((model.side_arrival(&toss).rolling - speed.abs()).abs() < 1e-14);
         }
+    }
+
+    /// How far a coin rolls and turns is what its equation of motion says, in short steps: contour friction and drag
+    /// slow down its rolling, pivoting friction and drag its turning. What has more energy names it, and a creep is
+    /// no motion.
+    #[test]
+    fn a_coin_on_its_side_rolls_and_turns_as_far_as_friction_and_drag_let_it() {
+        let scene = generic_scene(|plane| plane);
+        let model = model_of(&scene, &Settings::default());
+        let (body, drag) = (&model.dynamics.body, &model.dynamics.drag);
+        let friction = &model.dynamics.friction;
+        let (radius, creep) = (body.outer_radius(), Settings::default().stick_speed);
+        let (mut rolls, mut spins) = (0, 0);
+        for number in 0..8 {
+            let mut dice = Dice::new(542, number);
+            let [rolling, turning] = [0.0; 2].map(|_| dice.between(0.1, 0.9));
+            let found = model.onto_side(SideArrival { rolling, turning });
+            let share = body.ka / (radius * radius);
+            let (way, _) = stops_plainly(
+                |v| {
+                    let dry = friction.contour / radius;
+                    (dry + drag.linear * v + drag.angular * share * v) / (1.0 + share)
+                },
+                rolling,
+            );
+            let metres = way * scene.coin.rim_distance_m();
+            assert!((found.rolls_m / metres - 1.0).abs() < 1e-5);
+            let (angle, _) =
+                stops_plainly(|w| friction.pivoting / body.kt + drag.angular * w, turning);
+            assert!((found.turns / (angle / std::f64::consts::TAU) - 1.0).abs() < 1e-5);
+
+            let mut rolls_on = Motion::still();
+            rolls_on.vy = rolling;
+            let wheel = Spin {
+                axial: -rolling / radius,
+                ..Spin::still()
+            };
+            let top = Spin {
+                turn: turning,
+                ..Spin::still()
+            };
+            let more = Motion::still().kinetic(body, &top) > rolls_on.kinetic(body, &wheel);
+            assert_eq!(found.turning_prevails, more);
+            if more {
+                spins += 1;
+            } else {
+                rolls += 1;
+            }
+
+            let creeps = model.onto_side(SideArrival {
+                rolling: 0.99 * creep,
+                turning: 0.99 * creep,
+            });
+            assert_eq!((creeps.rolls_m, creeps.turns), (0.0, 0.0));
+        }
+        assert!(rolls > 0 && spins > 0, "{rolls} {spins}");
+    }
+
+    /// The first sustained contact on the side counts, until the coin leaves the side again: not a later one, and
+    /// none with the coin leaning towards its face.
+    #[test]
+    fn the_first_contact_on_the_side_counts() {
+        let model = model();
+        let balance = model.dynamics.body.half;
+        let mut toss = Toss::still();
+        let leans = |toss: &mut Toss, cos: f64, speed: f64| {
+            toss.motion.set_tilt((1.0 - cos * cos).sqrt(), cos);
+            toss.motion.vy = speed;
+            model.note_contact(toss);
+            toss.side_arrival.map(|arrival| arrival.rolling)
+        };
+        assert_eq!(leans(&mut toss, 1.01 * balance, 0.3), None);
+        let first = leans(&mut toss, 0.99 * balance, 0.6).expect("on its side");
+        assert!((first - 0.4).abs() < 1e-14);
+        assert_eq!(leans(&mut toss, 0.0, 0.9), Some(first));
+        assert_eq!(leans(&mut toss, 1.01 * balance, 0.9), None);
+        let second = leans(&mut toss, 0.5 * balance, -0.9).expect("on its side again");
+        assert!((second - 0.6).abs() < 1e-14);
+    }
+
+    /// A coin that sticks where it lands, or on which no friction acts, does not begin to roll.
+    #[test]
+    fn without_friction_a_coin_on_its_side_rests_or_slides() {
+        let on_side = Ended::Decided(Face::Side);
+        let ending = |surface: Surface| {
+            let coin = Coin::cylinder(0.7, 0.013).expect("a valid coin");
+            let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
+            let mut toss = Toss::still();
+            toss.motion.lay_on_side();
+            toss.motion.vy = 0.5;
+            let model = model_of(&scene, &Settings::default());
+            assert_eq!(model.side_ending(&toss, Ended::Decided(Face::Heads)), None);
+            model
+                .side_ending(&toss, on_side)
+                .expect("on its side")
+                .motion
+        };
+        let plane = |friction| Surface::new(0.5, friction).expect("a valid surface");
+        assert_eq!(ending(plane(0.3)), SideMotion::Rolled);
+        assert_eq!(ending(plane(0.0)), SideMotion::Rested);
+        let sticky = plane(0.3).with_landing(Landing::Adhesive);
+        assert_eq!(ending(sticky), SideMotion::Rested);
     }
 }

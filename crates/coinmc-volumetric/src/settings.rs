@@ -209,3 +209,19 @@ impl Settings {
 
 /// A setting outside its range.
 pub type SettingsError = OutOfRange;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each decision has a name by which configs know it, and says when the face is decided: only one of them
+    /// rigorously.
+    #[test]
+    fn decisions_are_told_apart() {
+        assert_eq!(Decision::ALL.map(Decision::name), ["tilting", "energy"]);
+        let docs = Decision::ALL.map(Decision::doc);
+        assert!(docs.iter().all(|doc| doc.starts_with("when ")));
+        assert_eq!(docs.map(|doc| doc.contains("rigorous")), [false, true]);
+        assert_eq!(docs.map(|doc| doc.contains("tilt the coin")), [true, false]);
+    }
+}

@@ -192,4 +192,70 @@ mod tests {
             }
         }
     }
+
+    /// The means over the rim are those of friction at many points all around it: the force against the motion, and
+    /// the torque against the spin, per weight. The points are spread evenly over half the rim.
+    #[test]
+    fn means_over_half_the_rim_are_those_over_the_whole() {
+        let rim = rim_sines_and_cosines();
+        for (point, [sin, cos]) in (0_u32..).zip(rim) {
+            let degrees = -82.5 + 15.0 * f64::from(point);
+            assert!((libm::atan2(sin, cos).to_degrees() - degrees).abs() < 1e-12);
+        }
+        for (v, w) in [(1.0, 0.4), (0.4, 1.0), (0.7, 0.0), (0.0, 0.6), (2.0, 3.5)] {
+            let count = 3_000;
+            let (mut force, mut torque) = (0.0, 0.0);
+            for i in 0..count {
+                let (y, x) = libm::sincos((f64::from(i) + 0.5) * 2.0 * PI / f64::from(count));
+                let slip = [v - w * y, w * x];
+                let size = libm::hypot(slip[0], slip[1]) * f64::from(count);
+                force += slip[0] / size;
+                torque += (x * slip[1] - y * slip[0]) / size;
+            }
+            let (along, about) = means(&rim, v, w);
+            assert!((along - force).abs() < 1e-4 && (about - torque).abs() < 1e-4);
+        }
+    }
+
+    /// Way and time scale as dimensions ask: `k` times as fast a coin slides for `k` times as long, and where
+    /// friction and pull are `k` times as strong, for a `k`-th part. Spin may have either sign.
+    #[test]
+    fn way_and_time_scale_with_speed_and_friction() {
+        let body = body();
+        let (v, w, pull) = ([0.6, -0.8], 1.5, [0.03, 0.02]);
+        for (mu, k) in [(0.3, 2.0), (0.2, 8.0), (1.7, 0.25)] {
+            let (way, time) = pulled_way_and_time(&body, mu, v, w, pull);
+            let fast = pulled_way_and_time(&body, mu, v.map(|v| k * v), -k * w, pull);
+            let strong = pulled_way_and_time(&body, k * mu, v, w, pull.map(|p| k * p));
+            for ((far, near), way) in fast.0.into_iter().zip(strong.0).zip(way) {
+                assert!((far - k * k * way).abs() < 1e-12 * k * k);
+                assert!((near - way / k).abs() < 1e-12 / k);
+            }
+            assert!((fast.1 / (k * time) - 1.0).abs() < 1e-12);
+            assert!((strong.1 * k / time - 1.0).abs() < 1e-12);
+
+            let (way, time) = way_and_time(&body, mu, 1.0, w);
+            let (far, long) = way_and_time(&body, mu, k, -k * w);
+            assert!((far / (k * k * way) - 1.0).abs() < 1e-12);
+            assert!((long / (k * time) - 1.0).abs() < 1e-12);
+            let (near, short) = way_and_time(&body, k * mu, 1.0, w);
+            assert!((near * k / way - 1.0).abs() < 1e-12);
+            assert!((short * k / time - 1.0).abs() < 1e-12);
+        }
+    }
+
+    /// A coin that hardly moves has no way; its time is no shorter than it takes, and at most (v + w)/μ.
+    #[test]
+    fn a_coin_that_only_spins_is_given_time_to_rest() {
+        let (body, mu) = (body(), 0.3);
+        for (v, w) in [(0.004, 0.3), (0.05, 0.004), (0.0, 1.0)] {
+            let ([far, _], least) = plain_sum(&body, mu, [v, 0.0], w, [0.0; 2]);
+            let (way, time) = way_and_time(&body, mu, v, w);
+            assert!(way == 0.0 && far < NEGLIGIBLE, "{way} {far}");
+            assert!(
+                time >= least && time <= (v + w) / mu * (1.0 + 1e-15),
+                "{time} {least}"
+            );
+        }
+    }
 }

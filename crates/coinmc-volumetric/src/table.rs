@@ -226,6 +226,7 @@ mod tests {
     use super::*;
     use crate::laws::Moreau;
     use coinmc_core::{Coin, Surface};
+    use coinmc_testkit::Sampler;
     use nalgebra::{UnitVector3, Vector3};
 
     /// A coin at rest in the middle that slides down without friction has the speed sqrt(2 g r sin β) at the edge.
@@ -250,5 +251,93 @@ mod tests {
         let slides = (2.0 * gravity * radius_m * libm::sin(6.0_f64.to_radians())).sqrt();
         let fastest = table.expect("an edge").fastest_m_s(&at_rest);
         assert!(fastest >= slides * (1.0 - 1e-12), "{fastest} {slides}");
+    }
+
+    fn state(time_s: f64, position_m: [f64; 3]) -> State {
+        State {
+            time_s,
+            position_m: position_m.into(),
+            velocity_m_s: Vector3::new(0.3, -0.4, 0.2),
+            axis: UnitVector3::new_normalize(Vector3::new(1.0, 2.0, 2.0)),
+            spin_rad_s: Vector3::new(20.0, -5.0, 12.0),
+        }
+    }
+
+    fn table(angle_deg: f64) -> Table<Moreau> {
+        let tilt = TableTilt::new(angle_deg, 0.0).expect("a valid tilt");
+        let surface = Surface::new(0.5, 0.3)
+            .and_then(|surface| surface.with_tilt(tilt))
+            .and_then(|surface| surface.with_table_radius(0.3))
+            .expect("a valid surface");
+        let coin = Coin::cylinder(0.6, 0.01).expect("a valid coin");
+        let scene = Scene::new(coin, surface, 9.81).expect("valid gravity");
+        let table = Table::new(&scene, &Settings::default(), Moreau).expect("valid settings");
+        table.expect("an edge")
+    }
+
+    /// The fastest is the speed of a coin with all of its energy in motion, at the lowest place of the edge: energies of
+    /// its velocity, of its spin as a uniform cylinder, of its height, and of the way down from where it is.
+    #[test]
+    fn the_fastest_has_all_of_its_energy_in_motion() {
+        for degrees in [0.0_f64, 7.0] {
+            let state = state(0.0, [0.1, -0.05, 0.03]);
+            let (radius, height): (f64, f64) = (0.01, 0.006);
+            let axis = Vector3::new(1.0, 2.0, 2.0) / 3.0;
+            let axial = axis.dot(&state.spin_rad_s);
+            let across = state.spin_rad_s - axis * axial;
+            let (sin, cos) = libm::sincos(degrees.to_radians());
+            let square = state.velocity_m_s.norm_squared()
+                + 0.5 * radius.powi(2) * axial * axial
+                + (radius.powi(2) / 4.0 + height.powi(2) / 12.0) * across.norm_squared()
+                + 2.0 * 9.81 * (0.03 * cos + (0.3 - 0.1) * sin);
+            let found = table(degrees).fastest_m_s(&state);
+            assert!((found / square.sqrt() - 1.0).abs() < 1e-12, "{found}");
+        }
+    }
+
+    /// An observer sees what it asks for and what happens on the table. The watch looks by itself when the fastest coin
+    /// could be beyond the edge; once the coin is, that is the end, and all that is seen of it.
+    #[test]
+    fn an_observer_sees_what_it_asks_for_until_the_coin_has_left() {
+        let table = table(0.0);
+        let mut sampler = Sampler::new(2.0);
+        let mut watch = EdgeWatch {
+            table: &table,
+            observer: &mut sampler,
+            look_at_s: 0.0,
+            left: None,
+            last: None,
+        };
+        let event = |time_s, x| Event {
+            kind: EventKind::Impact,
+            state: state(time_s, [x, 0.0, 0.0]),
+        };
+        watch.event(&event(0.0, -0.1));
+        let look = 0.2 / table.fastest_m_s(&state(0.0, [0.0; 3]));
+        assert_eq!(watch.wants_at_s(), 0.0);
+        watch.sample(&state(0.0, [-0.1, 0.0, 0.0]));
+        assert!((watch.wants_at_s() / look.min(0.5) - 1.0).abs() < 1e-12);
+        // not asked for by the observer, whose sampler would complain
+        watch.sample(&state(look, [0.1, 0.0, 0.0]));
+        watch.sample(&state(0.49, [0.1, 0.0, 0.0]));
+        assert!(watch.left.is_none() && !watch.has_seen_enough());
+        watch.sample(&state(0.5, [0.1, 0.0, 0.0]));
+        watch.event(&event(0.6, 0.29));
+        watch.event(&event(0.7, 0.31));
+        assert!(watch.has_seen_enough() && watch.wants_at_s() == f64::INFINITY);
+        watch.event(&event(0.8, 0.0));
+        watch.sample(&state(1.0, [0.0; 3]));
+        assert!(watch.left.is_some_and(|left| left.time_s == 0.7));
+        let kinds: Vec<_> = sampler.events.iter().map(|event| event.kind).collect();
+        assert_eq!(
+            kinds,
+            [EventKind::Impact, EventKind::Impact, EventKind::Ended]
+        );
+        let seen: Vec<_> = sampler
+            .samples
+            .iter()
+            .map(|seen| seen.state.time_s)
+            .collect();
+        assert_eq!(seen, [0.0, 0.5]);
     }
 }

@@ -181,6 +181,41 @@ pub(crate) mod tests {
         crate::model::Model::new(&scene, &settings, crate::laws::Moreau).expect("valid settings")
     }
 
+    /// A coin with rounded rims that rolls, spins and flies with friction and drag: no number of it is 0 or 1.
+    pub(crate) fn generic_scene(surface: impl FnOnce(Surface) -> Surface) -> Scene {
+        let coin = Coin::cylinder(0.7, 0.013).and_then(|coin| coin.with_rim_radius(0.001));
+        let plane = Surface::new(0.5, 0.35)
+            .and_then(|surface| surface.with_friction_lengths(1e-3, 2e-4))
+            .expect("a valid surface");
+        let drag = coinmc_core::Drag::new(0.8, 1.3).expect("a valid drag");
+        Scene::new(coin.expect("a valid coin"), surface(plane), 9.81)
+            .expect("a valid scene")
+            .with_drag(drag)
+    }
+
+    /// The model of a scene by Moreau's law, with these settings.
+    pub(crate) fn model_of(
+        scene: &Scene,
+        settings: &crate::settings::Settings,
+    ) -> crate::model::Model<crate::laws::Moreau> {
+        crate::model::Model::new(scene, settings, crate::laws::Moreau).expect("valid settings")
+    }
+
+    /// The way and the time to rest of a speed that falls at the rate `slowing`, by many small steps.
+    pub(crate) fn stops_plainly(slowing: impl Fn(f64) -> f64, speed: f64) -> (f64, f64) {
+        let step = speed / slowing(speed) * 1e-5;
+        let (mut v, mut way, mut time) = (speed, 0.0, 0.0);
+        loop {
+            let next = v - step * slowing(v - 0.5 * step * slowing(v));
+            if next <= 0.0 {
+                let last = step * v / (v - next);
+                return (way + 0.5 * last * v, time + last);
+            }
+            (way, time) = (way + 0.5 * step * (v + next), time + step);
+            v = next;
+        }
+    }
+
     /// A launch anywhere above the surface, its axis at this height.
     pub(crate) fn launch(dice: &mut Dice, axis_z: Option<f64>) -> Launch {
         let mut axis = dice.vector(1.0);

@@ -263,3 +263,209 @@ impl Path<'_> {
         *state = [0.0; 4];
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::Moreau;
+    use crate::place::Place;
+    use crate::settings::{Decision, Settings};
+    use coinmc_core::{Coin, Drag, Scene, Surface};
+    use coinmc_testkit::{Dice, Recorder};
+
+    /// A thin conical coin with this friction, contour friction (m) and linear drag (1/s).
+    fn conical(settings: &Settings, friction: f64, contour_m: f64, drag: f64) -> Conical<Moreau> {
+        let coin = Coin::cylinder(0.3, 0.012).and_then(|coin| coin.with_draft(9.0));
+        let surface = Surface::new(0.5, friction)
+            .and_then(|surface| surface.with_friction_lengths(contour_m, 0.3 * contour_m));
+        let scene = Scene::new(
+            coin.expect("a valid coin"),
+            surface.expect("a valid surface"),
+            9.81,
+        );
+        let drag = Drag::new(drag, drag).expect("a valid drag");
+        let scene = scene.expect("a valid scene").with_drag(drag);
+        let conical = Conical::new(&scene, settings, Moreau).expect("valid settings");
+        conical.expect("unlike faces")
+    }
+
+    /// By the decision on energy alone.
+    fn by_energy() -> Settings {
+        Settings {
+            decision: Decision::Energy,
+            ..Settings::default()
+        }
+    }
+
+    fn heads_up(heads_up: bool) -> Toss {
+        Toss {
+            heads_up,
+            ..Toss::still()
+        }
+    }
+
+    /// Turning about its line of contact alone, at this rate.
+    fn rolls(edge: &Edge, omega: f64) -> EdgeState {
+        [
+            0.0,
+            -edge.height * omega,
+            edge.sin * omega,
+            edge.cos * omega,
+        ]
+    }
+
+    /// Rolling to rest leads along a circle about the apex, at the distance ζ s/c of the centre from it, by the way in
+    /// which friction takes the energy.
+    #[test]
+    fn the_coin_rolls_to_rest_along_a_circle_about_the_apex() {
+        let conical = conical(&Settings::default(), 0.4, 1e-3, 0.0);
+        for up in [false, true] {
+            let toss = heads_up(up);
+            let mut path = conical.path(&toss, Usage::default());
+            path.solver.usage.time = 0.7;
+            let edge = path.edge;
+            for azimuth in [-6.0, 6.0] {
+                let mut state = rolls(&edge, azimuth * edge.sin / edge.cos);
+                let mut place = Place::at([0.3, -0.2], [0.6, 0.8]);
+                let before = place;
+                let units = conical.model(&toss).units;
+                let mut adapter = ObserverAdapter {
+                    observer: &mut Recorder::default(),
+                    place: &mut place,
+                    heads_up: up,
+                    units: &units,
+                };
+                let energy = path.kinetic(&state);
+                let begun = path.solver.usage.time;
+                path.roll_to_rest(&mut state, &mut adapter);
+                assert_eq!(state, [0.0; 4]);
+                let took = path.solver.usage.time - begun;
+                assert!((place.time / took - 1.0).abs() < 1e-9);
+                // the energy ends at ρ_c/s for each radian of roll, half as fast on the average as at first
+                let dynamics = path.solver.rules.dynamics;
+                let roll = energy / (dynamics.friction.contour / edge.sin);
+                let omega = azimuth.abs() * edge.sin / edge.cos.abs();
+                assert!((0.5 * omega * took / roll - 1.0).abs() < 1e-9);
+                // the axis leans along x: the apex lies there, on this side or on that
+                let angle = -(roll * edge.cos.abs() / edge.sin).copysign(azimuth);
+                let apex = edge.height * edge.sin / edge.cos;
+                let (sin, cos) = libm::sincos(angle);
+                let way = before.in_frame(place.way_from(&before));
+                let expected = [apex * (cos - 1.0), apex * sin];
+                let [hx, hy] = before.in_frame(place.direction(1.0, 0.0));
+                for (found, expected) in [
+                    (way[0], expected[0]),
+                    (way[1], expected[1]),
+                    (hx, cos),
+                    (hy, sin),
+                ] {
+                    assert!(
+                        (found - expected).abs() < 1e-4 * apex.abs(),
+                        "{found} {expected}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// Seen from its other rim it is the same coin: it tips onto this one there where it tips onto the other one
+    /// here, and only if the weight is all on one rim.
+    #[test]
+    fn both_rims_agree_on_which_of_them_the_coin_tips_onto() {
+        let conical = conical(&by_energy(), 0.4, 1e-4, 0.0);
+        let paths = [true, false].map(|up| conical.path(&heads_up(up), Usage::default()));
+        let creep = paths[0].solver.rules.stick_speed;
+        let exit = |path: &Path<'_>, state: &EdgeState| {
+            let now = path.edge.rates(path.solver.rules.dynamics, state, creep);
+            (path.exit(state, &now), now.share)
+        };
+        let mut seen = [0; 4];
+        for number in 0..6_000 {
+            let mut dice = Dice::new(560, number);
+            let mut state = rolls(&paths[0].edge, dice.between(0.3, 1.5));
+            for rate in &mut state {
+                let size = dice.scale(1e-4, 1.0);
+                *rate += dice.between(-size, size);
+            }
+            let [vx, vy, axial, turn] = state;
+            let (this, share) = exit(&paths[0], &state);
+            let (other, rest) = exit(&paths[1], &[-vx, -vy, -axial, turn]);
+            assert!((share + rest - 1.0).abs() < 1e-9 * (1.0 + share.abs()));
+            let expected = match this {
+                Some(EdgeExit::TipsOntoThisRim) => {
+                    assert!(share >= 1.0);
+                    Some(EdgeExit::TipsOntoOtherRim)
+                }
+                Some(EdgeExit::TipsOntoOtherRim) => {
+                    assert!(share <= 0.0);
+                    Some(EdgeExit::TipsOntoThisRim)
+                }
+                same => same,
+            };
+            assert_eq!(other, expected, "{share}");
+            let tips = this != expected;
+            seen[usize::from(tips) + 2 * usize::from((0.0..1.0).contains(&share))] += 1;
+        }
+        assert!(seen[1] > 100 && seen[2] > 100, "{seen:?}");
+    }
+
+    /// A coin that rolls about the apex rests in the end by contour friction. By drag alone it is on its side
+    /// though it never quite rests; without any loss it rolls for ever, unless what cannot tilt it is left out. Without
+    /// friction nothing rolls, and neither does what slips faster than a creep.
+    #[test]
+    fn rolling_about_the_apex_ends_by_its_losses() {
+        let side = EdgeExit::Leaves(Exit::Decided(Decided::Side));
+        let for_ever = EdgeExit::Leaves(Exit::NeverSettles);
+        for (settings, contour_m, drag, expected) in [
+            (by_energy(), 1e-4, 0.0, EdgeExit::RollsToRest),
+            (by_energy(), 0.0, 0.1, side),
+            (by_energy(), 0.0, 0.0, for_ever),
+            (Settings::default(), 0.0, 0.0, side),
+        ] {
+            for up in [false, true] {
+                let conical = conical(&settings, 0.4, contour_m, drag);
+                let path = conical.path(&heads_up(up), Usage::default());
+                let state = rolls(&path.edge, 0.6);
+                let (dynamics, creep) = (path.solver.rules.dynamics, settings.stick_speed);
+                let now = path.edge.rates(dynamics, &state, creep);
+                assert_eq!(path.exit(&state, &now), Some(expected));
+                let mut slips = state;
+                slips[0] = 0.99 * creep;
+                assert!(path.rolls(&state) && path.rolls(&slips));
+                slips[0] = 1.01 * creep;
+                assert!(!path.rolls(&slips));
+            }
+        }
+        let slippery = conical(&by_energy(), 0.0, 0.0, 0.0);
+        let path = slippery.path(&heads_up(true), Usage::default());
+        assert!(!path.rolls(&rolls(&path.edge, 0.6)));
+    }
+
+    /// A coin on its edge is followed for as many steps as are allowed, over which its energy never grows.
+    #[test]
+    fn steps_on_the_edge_are_counted() {
+        let settings = Settings {
+            max_steps: 7,
+            ..by_energy()
+        };
+        let conical = conical(&settings, 0.4, 1e-4, 0.0);
+        let toss = heads_up(true);
+        let mut path = conical.path(&toss, Usage::default());
+        let mut state = rolls(&path.edge, 0.6);
+        state[1] += 0.1;
+        let before = path.kinetic(&state);
+        let units = conical.model(&toss).units;
+        let mut place = Place::origin([1.0, 0.0]);
+        let mut adapter = ObserverAdapter {
+            observer: &mut Recorder::default(),
+            place: &mut place,
+            heads_up: true,
+            units: &units,
+        };
+        let exit = path.follow(&mut state, FromRim::Rocking, &mut adapter);
+        assert_eq!(exit, EdgeExit::Leaves(Exit::GivenUp));
+        assert_eq!(path.solver.usage.steps, 7);
+        assert!(path.kinetic(&state) < before && path.solver.usage.time > 0.0);
+        assert!((place.time / path.solver.usage.time - 1.0).abs() < 1e-12);
+    }
+}

@@ -7,8 +7,9 @@ use crate::contact::Dynamics;
 use crate::drag::Drag;
 use crate::laws::Moreau;
 use crate::settings::Settings;
-use coinmc_core::{Body, Coin, Launch, LowerRim, Scene, Surface};
-use coinmc_testkit::Dice;
+use crate::toss::tests::stops_plainly;
+use coinmc_core::{Body, Coin, Event, EventKind, Launch, LowerRim, Observer, Scene, Surface};
+use coinmc_testkit::{Dice, Recorder};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 
 const RATIOS_AND_DRAFTS: [(f64, f64); 4] = [(0.2, 3.0), (0.85, 12.0), (0.85, -12.0), (2.0, 15.0)];
@@ -222,4 +223,163 @@ fn rims_do_not_strike_again_and_again_in_no_time() {
             );
         }
     }
+}
+
+/// Drag takes energy as well: v² at the one rate, and that of the spin at the other.
+#[test]
+fn rolling_about_the_apex_with_drag_ends_as_its_energy_says() {
+    for rim in rims() {
+        let (edge, body) = (Edge::new(&rim), rim.body);
+        let dynamics = dynamics(body, 0.5, 0.01, [0.4, 0.9]);
+        let (s, c, height) = (edge.sin, edge.cos, edge.height);
+        let state = |omega: f64| [0.0, -height * omega, s * omega, c * omega];
+        let energy = |omega: f64| {
+            let (motion, spin) = edge.motion(&dynamics, &state(omega));
+            motion.kinetic(&body, &spin)
+        };
+        // d/dt of ½Iω² is what all losses take
+        let slowing = |omega: f64| {
+            let [_, vy, axial, turn] = state(omega);
+            let spins = body.ka * axial * axial + body.kt * turn * turn;
+            let losses = 0.01 * omega / s + 0.4 * vy * vy + 0.9 * spins;
+            losses / (2.0 * energy(1.0) * omega)
+        };
+        let (angle, time) = stops_plainly(slowing, 0.3);
+        let stop = edge.rolling_stop(&dynamics, 0.3 * height);
+        assert!((stop.distance() / (angle * height) - 1.0).abs() < 1e-5);
+        assert!((stop.time / time - 1.0).abs() < 1e-4);
+    }
+}
+
+/// Beyond the tilt of its edge a coin leans on its other rim.
+#[test]
+fn a_coin_is_beyond_its_edge_if_it_leans_more() {
+    for (trial, rim) in rims().cycle().take(400).enumerate() {
+        let mut dice = Dice::new(74, trial as u64);
+        let edge = Edge::new(&rim);
+        let tilt = libm::atan2(edge.sin, edge.cos);
+        let lean = tilt + dice.between(-0.5, 0.5);
+        let (sin, cos) = libm::sincos(lean);
+        assert_eq!(edge.is_beyond(sin, cos), lean > tilt);
+        assert!(!edge.is_beyond(edge.sin, edge.cos));
+    }
+}
+
+/// The slip is the largest that the point which slips faster can have, whatever the signs of the rates: along the
+/// axis, across it with the centre and the roll, and by turning about the vertical.
+#[test]
+fn the_slip_of_a_coin_on_its_edge_is_that_of_its_faster_point() {
+    for (trial, rim) in rims().cycle().take(400).enumerate() {
+        let mut dice = Dice::new(75, trial as u64);
+        let edge = Edge::new(&rim);
+        let [vx, vy, wx, wz] = [0.0; 4].map(|_| dice.between(-1.0, 1.0));
+        let mut most = 0.0_f64;
+        for turning in [wz, -wz] {
+            let spin = Vector3::new(wx, 0.0, turning);
+            let u = Vector3::new(edge.sin, 0.0, edge.cos);
+            let across = Vector3::new(edge.cos, 0.0, -edge.sin);
+            for arm in [
+                across * rim.body.radius - u * rim.body.half,
+                across * rim.upper.radius + u * rim.upper.half,
+            ] {
+                let slip = Vector3::new(vx, vy, 0.0) + spin.cross(&arm);
+                most = most.max(slip.y.abs() + vx.abs());
+            }
+            let state = [vx, vy, spin.dot(&u), spin.dot(&across)];
+            assert!(edge.slip(&state) >= most * (1.0 - 1e-14));
+        }
+        let (s, c) = (edge.sin, edge.cos);
+        let found = edge.slip(&[vx, vy, s * wx + c * wz, c * wx - s * wz]);
+        assert!((found / most - 1.0).abs() < 1e-12, "{found} {most}");
+    }
+}
+
+/// What could overturn a coin is that of one that rolls as fast as it slides: with the draft δ of its edge the axis of
+/// such a coin also turns at tan δ of its roll, and so does its angular momentum.
+#[test]
+fn a_sliding_coin_may_be_overturned_as_one_that_rolls() {
+    let drafts = RATIOS_AND_DRAFTS
+        .into_iter()
+        .flat_map(|(_, draft)| [draft; 2]);
+    for (trial, (rim, draft)) in rims().zip(drafts).cycle().take(400).enumerate() {
+        let mut dice = Dice::new(76, trial as u64);
+        let edge = Edge::new(&rim);
+        let mu = dice.between(0.1, 0.5);
+        let dynamics = dynamics(rim.body, mu, 0.0, [0.0; 2]);
+        let tan = libm::tan(f64::to_radians(draft)).abs();
+        let [vx, vy, wa, wt] = [0.0; 4].map(|_| dice.between(-3.0, 3.0));
+        let moment = |axial: f64, turn: f64| {
+            let body = &rim.body;
+            // ω_θ (I_a ω_a + I_t φ' c), φ' s = ω_θ
+            mu * edge.height + turn * (body.ka * axial + body.kt * tan * turn)
+        };
+        let rolls = (vx.abs() + vy.abs()) / edge.height;
+        for (state, axial, turn) in [
+            ([vx, vy, 0.0, 0.0], rolls, tan * rolls),
+            ([0.0, 0.0, wa, 0.0], wa.abs(), tan * wa.abs()),
+            ([0.0, 0.0, wa, wt], wa.abs(), wt.abs() + tan * wa.abs()),
+            ([vx, vy, 0.9 * rolls, wt], rolls, wt.abs() + tan * rolls),
+        ] {
+            let found = edge.overturning(&dynamics, &state);
+            let expected = 2.0 * moment(axial, turn);
+            assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+        }
+    }
+}
+
+/// A coin with draft and friction lengths.
+fn conical() -> Conical<Moreau> {
+    let coin = Coin::cylinder(0.4, 0.01).and_then(|coin| coin.with_draft(7.0));
+    let surface = Surface::new(0.5, 0.3)
+        .and_then(|surface| surface.with_friction_lengths(1e-4, 2e-5))
+        .expect("a good surface");
+    let scene = Scene::new(coin.expect("a good coin"), surface, 9.81).expect("a good scene");
+    let conical = Conical::new(&scene, &Settings::default(), Moreau).expect("good settings");
+    conical.expect("unlike faces")
+}
+
+fn launch(dice: &mut Dice) -> Launch {
+    Launch {
+        height_m: 0.1,
+        velocity_m_s: Vector3::new(0.2, 0.0, 0.5),
+        axis: UnitVector3::new_normalize(dice.vector(1.0)),
+        spin_rad_s: dice.vector(50.0),
+    }
+}
+
+/// A toss tells how many impacts it had: as many as an observer sees.
+#[test]
+fn impacts_are_counted() {
+    let conical = conical();
+    for toss in 0..20 {
+        let mut seen = Recorder::default();
+        let outcome = conical
+            .run(&launch(&mut Dice::new(77, toss)), &mut seen)
+            .outcome;
+        let is_impact = |event: &&Event| event.kind == EventKind::Impact;
+        let impacts = seen.0.iter().filter(is_impact).count();
+        assert!(impacts > 0);
+        assert_eq!(outcome.impacts as usize, impacts);
+    }
+}
+
+/// A toss of which an observer has seen enough ends with its flight.
+#[test]
+fn a_toss_of_which_enough_is_seen_is_not_followed() {
+    struct Enough(Vec<EventKind>);
+    impl Observer for Enough {
+        fn event(&mut self, event: &Event) {
+            self.0.push(event.kind);
+        }
+        fn has_seen_enough(&self) -> bool {
+            true
+        }
+    }
+    let conical = conical();
+    let mut seen = Enough(Vec::new());
+    let outcome = conical
+        .run(&launch(&mut Dice::new(78, 0)), &mut seen)
+        .outcome;
+    assert_eq!(seen.0, [EventKind::Launched, EventKind::Ended]);
+    assert_eq!((outcome.impacts, outcome.face()), (0, None));
 }

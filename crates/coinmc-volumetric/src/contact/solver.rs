@@ -220,8 +220,12 @@ impl ContactSolver<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::Friction;
     use crate::contact::rim::{SLIP_X, SLIP_Y};
-    use crate::toss::tests::model;
+    use crate::contact::tests::{STILL, dynamics};
+    use crate::settings::Settings;
+    use crate::toss::tests::{model, model_of};
+    use coinmc_core::{Coin, Scene, Surface};
     use coinmc_testkit::Dice;
 
     /// A contact point that friction can hold sticks. One that it cannot hold starts to slip at `stick_speed`,
@@ -262,5 +266,92 @@ mod tests {
             assert!(phase.mode == Mode::Slip && phase.state == slips);
         }
         assert!(stuck > 100 && started > 100, "{stuck} {started}");
+    }
+
+    /// Contact ends at once where the coin comes down flat or where its point would leave the surface; where a slip
+    /// jams, an impulse without approach changes the slip; and otherwise nothing happens before the next step.
+    #[test]
+    fn a_state_without_a_step_is_left_at_once() {
+        let coin = Coin::cylinder(0.7, 0.01).expect("a valid coin");
+        let surface = Surface::new(0.5, 3.0).expect("a valid surface");
+        let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
+        let model = model_of(&scene, &Settings::default());
+        let dynamics = &model.dynamics;
+        let mut solver = model.contact_solver(Usage::default());
+        let mut next = |tilt: f64, wy: f64| {
+            let state = [tilt, wy, 0.2, 0.0, 0.0, 0.0];
+            let mut phase = solver.phase(state, Mode::Stick);
+            solver.immediate_transition(&mut phase)
+        };
+        let leaves =
+            |next, exit| matches!(next, Some(PhaseTransition::Leave(found)) if found == exit);
+        assert!(leaves(next(FLAT, -0.1), Exit::Level));
+        assert!(next(FLAT, 0.1).is_none() && next(2.0 * FLAT, -0.1).is_none());
+        // with its centre straight above the point, at a height of 1, it presses with 1 − ω_y²
+        let balance = libm::atan2(2.0, 0.7);
+        for (wy, leaves_surface) in [(1.01, true), (-1.01, true), (0.99, false)] {
+            let exit = next(balance, wy);
+            assert_eq!(leaves(exit, Exit::LiftOff), leaves_surface, "{wy}");
+            assert_eq!(exit.is_none(), !leaves_surface);
+        }
+        let mut jams = 0;
+        for number in 0..2_000 {
+            let mut dice = Dice::new(553, number);
+            let mut rate = || dice.between(-0.5, 0.5);
+            let state = [0.8 + rate(), rate(), rate(), rate(), rate(), rate()];
+            let mut phase = solver.phase(state, Mode::Slip);
+            if phase.now.jam_margin >= LEAST_JAM_MARGIN || phase.now.press <= 0.0 {
+                continue;
+            }
+            jams += 1;
+            let used = solver.usage;
+            let next = solver.immediate_transition(&mut phase);
+            assert!(matches!(next, Some(PhaseTransition::ChangeMode)));
+            assert_eq!(
+                [
+                    solver.usage.jams - used.jams,
+                    solver.usage.steps - used.steps
+                ],
+                [1, 1]
+            );
+            let energy = |state: &RimState<f64>| {
+                let (mut motion, mut spin) = (Motion::still(), Spin::still());
+                crate::contact::place(dynamics, state, &mut motion, &mut spin);
+                motion.kinetic(&dynamics.body, &spin)
+            };
+            assert!(energy(&phase.state) < energy(&state));
+            assert_eq!(phase.state[TILT], state[TILT]);
+            assert!(slip_speed(&phase.state) < slip_speed(&state));
+        }
+        assert!(jams > 50, "{jams}");
+    }
+
+    /// On one rim alone a coin that was on its side falls back onto the other one, unless its slip along its axis
+    /// makes friction push below its centre against that, with more moment than the weight: μR > h.
+    #[test]
+    fn a_coin_tilts_from_its_side_where_friction_has_more_moment_than_the_weight() {
+        let model = model();
+        let level = model.contact_solver(Usage::default());
+        let mut seen = [0; 2];
+        for number in 0..400 {
+            let mut dice = Dice::new(554, number);
+            let friction = Friction {
+                mu: dice.between(0.1, 1.0),
+                contour: 0.0,
+                pivoting: 0.0,
+            };
+            let dynamics = dynamics(dice.scale(0.1, 2.0), friction, STILL, true);
+            let slip = dice.between(0.05, 1.0);
+            let body = &dynamics.body;
+            let pushes = friction.mu * body.radius > body.half;
+            let solver = level.with(&dynamics);
+            let tilts = |slip: f64| {
+                solver.tilts_from_side([std::f64::consts::FRAC_PI_2, 0.0, 0.0, 0.0, slip, 0.0])
+            };
+            assert_eq!(tilts(-slip), pushes);
+            assert!(!tilts(slip) && !tilts(0.0));
+            seen[usize::from(pushes)] += 1;
+        }
+        assert!(seen[0] > 50 && seen[1] > 50, "{seen:?}");
     }
 }

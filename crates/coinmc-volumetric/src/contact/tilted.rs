@@ -189,3 +189,183 @@ fn held_share(dynamics: &Dynamics, state: &LineState) -> f64 {
     let gyro = body.kt * dynamics.axial_factor * wa * wz;
     (gyro + body.half - body.outer_radius() * pull) / (2.0 * body.half)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::Usage;
+    use crate::contact::on_side::tests::{rolls, rolls_plainly};
+    use crate::place::Place;
+    use crate::settings::Settings;
+    use crate::toss::tests::{generic_scene, model_of};
+    use coinmc_core::{Coin, Decided, Scene, Surface, TableTilt};
+    use coinmc_testkit::Dice;
+    use coinmc_testkit::Recorder;
+    use nalgebra::Vector3;
+
+    /// With a share of the weight on each rim, and friction that holds it along its axis against the pull, the
+    /// moments at the rims turn the coin's angular momentum with it, and do not tilt it.
+    #[test]
+    fn the_shares_of_a_held_coin_leave_no_moment_that_tilts_it() {
+        let model = model_of(&generic_scene(|plane| plane), &Settings::default());
+        for number in 0..100 {
+            let mut dice = Dice::new(552, number);
+            let mut rate = |size: f64| dice.between(-size, size);
+            let dynamics = model.dynamics.pulled_by([rate(0.2), rate(0.2)]);
+            let body = &dynamics.body;
+            let state = [rate(1.0), rate(1.0), rate(1.0), rate(1.0)];
+            let share = held_share(&dynamics, &state);
+            let friction = -dynamics.pull.expect("a pull")[0];
+            let torque: Vector3<f64> = [(share, -1.0), (1.0 - share, 1.0)]
+                .into_iter()
+                .map(|(normal, side)| {
+                    let arm = Vector3::new(side * body.half, 0.0, -body.outer_radius());
+                    arm.cross(&Vector3::new(friction * normal, 0.0, normal))
+                })
+                .sum();
+            let momentum = Vector3::new(body.ka * state[2], 0.0, body.kt * state[3]);
+            let turning = (Vector3::z() * state[3]).cross(&momentum);
+            assert!((torque.y - turning.y).abs() < 1e-14, "{torque} {turning}");
+        }
+    }
+
+    /// What is left of a creep when the coin rolls straight is what one impulse at the table leaves of it. Then it
+    /// rolls as its equation of motion says, downhill farther than uphill, or for ever where the pull is more than
+    /// contour friction.
+    #[test]
+    fn a_coin_rolls_on_a_slope_until_contour_friction_holds_it() {
+        let model = model_of(&generic_scene(|plane| plane), &Settings::default());
+        let body = &model.dynamics.body;
+        let radius = body.outer_radius();
+        let holds = model.dynamics.friction.contour / radius;
+        let mut ways = Vec::new();
+        for (speed, pull) in [
+            (0.4, 0.5),
+            (0.4, -0.5),
+            (-0.4, 0.5),
+            (-0.4, -0.5),
+            (0.4, 1.1),
+            (-0.4, 1.1),
+        ] {
+            let dynamics = model.dynamics.pulled_by([0.03, pull * holds]);
+            let level = model.contact_solver(Usage {
+                time: 1.5,
+                ..Usage::default()
+            });
+            let mut solver = level.with(&dynamics);
+            let mut state = rolls(&dynamics, speed);
+            state[1] += 0.05;
+            // p changes v_y by p and k_a ω_a by R p, and ends the slip
+            let slip = state[1] + radius * state[2];
+            let left = state[1] - slip / (1.0 + radius * radius / body.ka);
+
+            let (mut motion, mut spin) = line_motion(&dynamics, &state);
+            let mut place = Place::at([0.2, -0.1], [0.6, 0.8]);
+            let before = place;
+            let mut seen = Recorder::default();
+            let mut adapter = ObserverAdapter {
+                observer: &mut seen,
+                place: &mut place,
+                heads_up: false,
+                units: &model.units,
+            };
+            let exit = solver.roll_down(&state, &mut motion, &mut spin, &mut adapter);
+            let begun = &seen.0[0];
+            assert_eq!(begun.kind, EventKind::Sticking);
+            let shown = begun.state.velocity_m_s.norm() / model.units.speed_m_s();
+            assert!((shown - left.abs()).abs() < 1e-14, "{shown} {left}");
+            if pull.abs() > 1.0 {
+                assert_eq!(exit, Exit::NeverSettles);
+                continue;
+            }
+            assert_eq!(exit, Exit::Decided(Decided::Side));
+            let ahead = pull * holds * left.signum();
+            let (way, time) = rolls_plainly(&dynamics, left.abs(), ahead);
+            let [x, y] = before.in_frame(place.way_from(&before));
+            assert!(
+                x.abs() < 1e-12 && (y / way.copysign(left) - 1.0).abs() < 1e-4,
+                "{y} {way}"
+            );
+            for took in [place.time, solver.usage.time - 1.5] {
+                assert!((took / time - 1.0).abs() < 1e-4, "{took} {time}");
+            }
+            ways.push(way);
+        }
+        assert!(ways[0] > 1.5 * ways[1] && ways[3] > 1.5 * ways[2]);
+    }
+
+    /// A coin that slides and turns on its side of a tilted table is, after a while, where many small steps of the
+    /// classical Runge-Kutta method in the laboratory take it. The pull of each step, taken in its middle, is good to
+    /// second order.
+    #[test]
+    fn a_coin_on_its_side_slides_as_the_pull_of_the_table_asks() {
+        let tilt = TableTilt::new(8.0, 40.0).expect("a valid tilt");
+        let surface = Surface::new(0.5, 0.3).and_then(|surface| surface.with_tilt(tilt));
+        let coin = Coin::cylinder(3.0, 0.01).expect("a valid coin");
+        let scene = Scene::new(coin, surface.expect("a valid surface"), 9.81);
+        let settings = Settings {
+            time_limit: 1.2,
+            ..Settings::default()
+        };
+        let model = model_of(&scene.expect("a valid scene"), &settings);
+        let (dynamics, pull) = (&model.dynamics, model.pull.expect("a pull"));
+        for (begun, start) in [(0.4, [0.3, -0.7, 0.4, 2.5]), (-2.0, [-0.2, 0.6, 0.5, -3.0])] {
+            let (mut motion, mut spin) = line_motion(dynamics, &start);
+            let (sin, cos) = libm::sincos(begun);
+            let mut place = Place::at([0.2, -0.1], [cos, sin]);
+            let mut adapter = ObserverAdapter {
+                observer: &mut Recorder::default(),
+                place: &mut place,
+                heads_up: true,
+                units: &model.units,
+            };
+            let mut solver = model.contact_solver(Usage::default());
+            let exit = solver.follow_on_side_pulled(&pull, &mut motion, &mut spin, &mut adapter);
+            assert!(matches!(exit, SideExit::Leaves(Exit::TimeLimit)));
+            assert!((solver.usage.time - place.time).abs() < 1e-12);
+
+            // v_x, v_y, ω_a, ω_z of the frame, its heading, and the place of the centre
+            let rates = |y: &[f64; 7]| {
+                let (sin, cos) = libm::sincos(y[4]);
+                let [ex, ey] = tilt.downhill();
+                let slope = libm::tan(8.0_f64.to_radians());
+                let pull = [slope * (ex * cos + ey * sin), slope * (ey * cos - ex * sin)];
+                let state = [y[0], y[1], y[2], y[3]];
+                let [ax, ay, aa, az] =
+                    line_rates(&dynamics.pulled_by(pull), &state, settings.stick_speed).rates;
+                let (x, y) = (y[0] * cos - y[1] * sin, y[0] * sin + y[1] * cos);
+                [ax, ay, aa, az, state[3], x, y]
+            };
+            let [vx, vy, wa, wz] = start;
+            let mut y = [vx, vy, wa, wz, begun, 0.2, -0.1];
+            let count = 1_000;
+            let h = place.time / f64::from(count);
+            let ahead = |y: &[f64; 7], k: &[f64; 7], h: f64| {
+                std::array::from_fn::<f64, 7, _>(|i| y[i] + h * k[i])
+            };
+            for _ in 0..count {
+                let k1 = rates(&y);
+                let k2 = rates(&ahead(&y, &k1, 0.5 * h));
+                let k3 = rates(&ahead(&y, &k2, 0.5 * h));
+                let k4 = rates(&ahead(&y, &k3, h));
+                y = std::array::from_fn(|i| {
+                    y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i])
+                });
+            }
+            let [px, py] = place.point(0.0, 0.0);
+            let (sin, cos) = libm::sincos(y[4]);
+            let [hx, hy] = place.direction(1.0, 0.0);
+            let off = [
+                px - y[5],
+                py - y[6],
+                hx - cos,
+                hy - sin,
+                motion.vx - y[0],
+                motion.vy - y[1],
+                spin.axial - y[2],
+                -spin.turn - y[3],
+            ];
+            assert!(off.iter().all(|off| off.abs() < 2e-3), "{off:?}");
+        }
+    }
+}
