@@ -109,3 +109,97 @@ pub(crate) fn after_bounce(stays: bool, lifts_off: bool) -> Transition {
 pub(crate) fn approaches(up: f64, down: f64) -> bool {
     up - down < -ROUNDING * (up.abs() + down.abs())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::Spin;
+    use crate::toss::tests::{generic_scene, model_of};
+    use coinmc_core::Launch;
+    use nalgebra::{UnitVector3, Vector3};
+
+    fn still(axis: Vector3<f64>) -> Launch {
+        Launch {
+            height_m: 0.0,
+            velocity_m_s: Vector3::zeros(),
+            axis: UnitVector3::new_normalize(axis),
+            spin_rad_s: Vector3::zeros(),
+        }
+    }
+
+    /// A point sinks where it goes down faster than the centre goes up, by more than both are rounded.
+    #[test]
+    fn a_point_approaches_that_sinks_by_more_than_rounding() {
+        assert!(approaches(0.3, 0.4) && approaches(-0.3, -0.2) && approaches(-0.1, 0.2));
+        assert!(!approaches(0.4, 0.3) && !approaches(-0.2, -0.3) && !approaches(0.3, 0.3));
+        // differences of 1e-12 and 1e-14 of the speeds
+        assert!(approaches(0.3, 0.3 * (1.0 + 1e-12)) && !approaches(0.3, 0.3 * (1.0 + 1e-14)));
+        // added, these speeds cancel: it is their size that counts
+        assert!(approaches(-0.3, -0.3 * (1.0 - 1e-12)) && !approaches(-0.3, -0.3 * (1.0 - 1e-14)));
+    }
+
+    /// The other rim of a coin exactly on its side is h from the centre, and sinks at h ω relative to it.
+    #[test]
+    fn the_other_rim_of_a_coin_on_its_side_approaches_as_the_coin_tilts() {
+        let model = model_of(
+            &generic_scene(|surface| surface),
+            &crate::settings::Settings::default(),
+        );
+        let half = model.dynamics.body.half;
+        let mut toss = model.launch(&still(Vector3::x()));
+        toss.motion.cos = 0.0;
+        for (tilt, rises, approaches) in [
+            (2.0, 1.9 * half, true),
+            (2.0, 2.1 * half, false),
+            (-2.0, -1.9 * half, false),
+            (-2.0, -2.1 * half, true),
+        ] {
+            toss.spin = Spin {
+                tilt,
+                ..Spin::still()
+            };
+            toss.motion.vz = rises;
+            assert_eq!(
+                model.other_rim_approaches(&toss),
+                approaches,
+                "{tilt} {rises}"
+            );
+        }
+        toss.motion.cos = 0.1;
+        assert!(!model.other_rim_approaches(&toss));
+    }
+
+    /// Of a level coin the point of its rim sinks fastest towards which it tilts, at R ω relative to the centre.
+    #[test]
+    fn the_lowest_going_point_of_a_level_coin_approaches_as_the_coin_tilts() {
+        let model = model_of(
+            &generic_scene(|surface| surface),
+            &crate::settings::Settings::default(),
+        );
+        let (radius, factor) = (model.dynamics.body.radius, model.dynamics.axial_factor);
+        for (tilt, rises, approaches) in [
+            (2.0, 1.9 * radius, true),
+            (2.0, 2.1 * radius, false),
+            (-2.0, 1.9 * radius, true),
+            (-2.0, 2.1 * radius, false),
+            (0.0, -0.3, false),
+        ] {
+            let mut toss = model.launch(&still(Vector3::z()));
+            toss.motion.set_tilt(0.0, 1.0);
+            toss.spin = Spin {
+                tilt,
+                ..Spin::still()
+            };
+            toss.motion.set_spin(&toss.spin, factor);
+            toss.motion.vz = rises;
+            assert_eq!(
+                model.opposite_point_approaches(&mut toss),
+                approaches,
+                "{tilt} {rises}"
+            );
+        }
+        let mut leaning = model.launch(&still(Vector3::new(0.3, 0.0, 1.0)));
+        leaning.motion.vz = -1.0;
+        assert!(!model.opposite_point_approaches(&mut leaning));
+    }
+}

@@ -278,4 +278,29 @@ mod tests {
             assert_eq!(flipped.axis, -state.axis);
         }
     }
+
+    /// What is shown of the height goes on where a coin's height counts from lower ground; so again from higher ground.
+    #[test]
+    fn heights_go_on_where_they_count_from_another_surface() {
+        let coin = coinmc_core::Coin::cylinder(0.7, 0.01).expect("a valid coin");
+        let surface = coinmc_core::Surface::new(0.5, 0.3).expect("a valid surface");
+        let scene = coinmc_core::Scene::new(coin, surface, 9.81).expect("a valid scene");
+        let units = Units::new(&scene);
+        let mut place = Place::origin([1.0, 0.0]);
+        let mut motion = Motion {
+            sin: 1.0,
+            z: 1.3,
+            ..Motion::still()
+        };
+        let shown = |place: &Place, motion: &Motion<f64>| {
+            let state = place.state(motion, &Spin::still(), true, &units);
+            state.position_m.z / units.length_m
+        };
+        let before = shown(&place, &motion);
+        for by in [0.2, -0.5] {
+            place.lower_datum(by);
+            motion.z += by;
+            assert!((shown(&place, &motion) - before).abs() < 1e-12, "{by}");
+        }
+    }
 }

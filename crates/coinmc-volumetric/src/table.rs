@@ -340,4 +340,51 @@ mod tests {
             .collect();
         assert_eq!(seen, [0.0, 0.5]);
     }
+
+    /// A table of this radius, and a coin at rest on it.
+    fn round(radius_m: f64, tilt: Option<TableTilt>, drag: f64) -> (Table<Moreau>, State) {
+        // on a tilted table friction must hold a coin
+        let mu = if tilt.is_some() { 0.3 } else { 0.0 };
+        let mut surface = Surface::new(0.5, mu)
+            .and_then(|surface| surface.with_table_radius(radius_m))
+            .expect("a valid surface");
+        if let Some(tilt) = tilt {
+            surface = surface.with_tilt(tilt).expect("a valid surface");
+        }
+        let coin = Coin::cylinder(0.2, 0.01).expect("a valid coin");
+        let drag = coinmc_core::Drag::new(drag, drag).expect("a valid drag");
+        let scene = Scene::new(coin, surface, 9.81).expect("valid gravity");
+        let scene = scene.with_drag(drag);
+        let at_rest = State {
+            time_s: 0.0,
+            position_m: Vector3::new(0.1, -0.2, 0.01),
+            velocity_m_s: Vector3::zeros(),
+            axis: UnitVector3::new_unchecked(Vector3::z()),
+            spin_rad_s: Vector3::zeros(),
+        };
+        let table = Table::new(&scene, &Settings::default(), Moreau).expect("valid settings");
+        (table.expect("an edge"), at_rest)
+    }
+
+    /// A coin that slides without friction leaves a table with an edge, unless air stops it on the way, v/k, before it is there; one
+    /// at rest stays.
+    #[test]
+    fn a_coin_without_friction_coasts_over_the_edge() {
+        for (drag, velocity, away) in [
+            (0.0, [0.0, 0.0], false),
+            (0.0, [1e-3, 0.0], true),
+            // to .1 + .3/.5 and −.2 − .1/.5: .806 m from the middle
+            (0.5, [0.3, -0.1], true),
+            // to .1 + .3/.6 and −.2 − .1/.6: .703 m
+            (0.6, [0.3, -0.1], false),
+            (0.5, [-0.3, 0.1], false),
+        ] {
+            let (table, mut state) = round(0.75, None, drag);
+            state.velocity_m_s = Vector3::new(velocity[0], velocity[1], 0.0);
+            assert_eq!(table.coasts_away(&state), away, "{drag} {velocity:?}");
+        }
+        let tilt = TableTilt::new(3.0, 90.0).expect("a valid tilt");
+        let (sloped, state) = round(0.75, Some(tilt), 0.5);
+        assert!(sloped.coasts_away(&state));
+    }
 }

@@ -392,4 +392,30 @@ mod tests {
             assert!(motion.vz < 0.0 || (soon - strongest).abs() < 1e-4);
         }
     }
+
+    /// The way of the centre is the integral of its velocity, which drag lets decay: (1 − e^(−kt))/k times the velocity.
+    #[test]
+    fn the_centre_drifts_as_far_as_drag_lets_it() {
+        let model = model();
+        let mut dice = Dice::new(523, 0);
+        let toss = model.launch(&launch(&mut dice, None));
+        let m = Motion {
+            vx: 0.7,
+            vy: -0.4,
+            ..toss.motion
+        };
+        for (linear, t) in [(0.0, 1.7), (0.6, 1.7), (3.0, 0.2)] {
+            let drag = Drag {
+                linear,
+                angular: 0.3,
+            };
+            let (x, y) = Orbit::new(&m, drag).drift(&m, t);
+            let way = if linear == 0.0 {
+                t
+            } else {
+                -libm::expm1(-linear * t) / linear
+            };
+            assert!((x - 0.7 * way).abs() < 1e-13 && (y + 0.4 * way).abs() < 1e-13);
+        }
+    }
 }

@@ -431,3 +431,28 @@ fn steps_of_a_rim_count_and_take_their_time() {
     );
     assert!((walk.energy() - walk.budget).abs() < 1e-9);
 }
+
+/// At a node half of the pull of the slopes ahead is given at once: the lead is what the coin then has beyond its budget.
+#[test]
+fn the_lead_is_what_a_coin_has_beyond_its_budget() {
+    let rough = Rough {
+        friction_m: [1e-9, 1e-9],
+        ..Rough::of(0.7, 0.02)
+    };
+    let model = rough.model();
+    let ground = model.ground.expect("a rough ground");
+    let mut toss = touching(&model, 0.2);
+    set_motion(&mut toss, &model, ROLLING, [0.0, 0.0]);
+    let (mut usage, mut observer) = (Usage::default(), ());
+    let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+    walk.begin_tracks();
+    walk.budget = walk.energy();
+    let contact = walk.contact();
+    walk.pass_node(&contact, [0.02, 0.15]);
+    assert!(walk.lead.abs() > 1e-5, "{}", walk.lead);
+    assert!(
+        (walk.energy() - walk.budget - walk.lead).abs() < 1e-9,
+        "{}",
+        walk.lead
+    );
+}

@@ -437,6 +437,135 @@ fn a_hop_ends_where_a_rim_first_meets_the_ground() {
             "{number}"
         );
         assert!((now.vz - (start.motion.vz - time)).abs() < 1e-9, "{number}");
+        // nothing changes the spin about the axis, as heads has it
+        let spins = |toss: &Toss| {
+            if toss.heads_up {
+                toss.spin.axial
+            } else {
+                -toss.spin.axial
+            }
+        };
+        assert!((spins(walk.toss) - spins(&start)).abs() < 1e-12, "{number}");
     }
     assert!(seen.iter().all(|count| *count > 15), "{seen:?}");
+}
+
+/// A coin that is put down has its lowest point on the ground under it, with the energy that its height is worth; what is shown of
+/// its height goes on.
+#[test]
+fn a_coin_is_put_down_onto_the_ground_under_it() {
+    let model = Rough::of(0.7, 0.05).model();
+    let ground = model.ground.expect("a rough ground");
+    for angle in [0.1, 0.6] {
+        let mut toss = leaning(&model, angle, [0.2, 0.1, -0.3]);
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        let shown = |walk: &Walk<'_, Moreau, ()>| {
+            let toss = &walk.toss;
+            toss.place
+                .state(&toss.motion, &toss.spin, true, &walk.model.units)
+                .position_m
+                .z
+        };
+        let (before, height) = (shown(&walk), walk.toss.motion.z);
+        walk.put_down();
+        let [own, _] = rim_points(walk.body(), &walk.toss.motion, &walk.toss.spin);
+        let under = carried_now(&ground, walk.body(), &walk.toss.motion, &walk.place, own.rx).0;
+        assert!((walk.toss.motion.z + own.rz - under).abs() < 1e-12 && under.abs() > 1e-6);
+        assert!((walk.tracks.own.height - under).abs() < 1e-12);
+        assert!((walk.energy() - walk.budget).abs() < 1e-12);
+        assert!((shown(&walk) - before).abs() < 1e-12 && walk.toss.motion.z != height);
+    }
+}
+
+/// A coin that leaves the rough ground counts its height from the ground under its own rim, no lower than it can lie, with its axis
+/// up; what is shown of its height goes on.
+#[test]
+fn a_coin_that_leaves_counts_its_height_from_its_own_track() {
+    let model = Rough::of(0.7, 0.05).model();
+    let ground = model.ground.expect("a rough ground");
+    for (angle, above, points_down) in [(0.1, 0.02, false), (0.1, -0.02, false), (-0.1, 0.02, true)]
+    {
+        let mut toss = leaning(&model, 0.1, [0.2, 0.1, -0.3]);
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        (walk.tracks.own.height, walk.tracks.other.height) = (0.3, 0.3);
+        let rest = walk.toss.motion.rest_height(walk.body());
+        walk.toss.motion.z = rest + 0.3 + above;
+        if points_down {
+            walk.toss.motion.cos = -walk.toss.motion.cos;
+        }
+        let heads_up = walk.toss.heads_up;
+        let shown = |walk: &Walk<'_, Moreau, ()>| {
+            let toss = &walk.toss;
+            toss.place
+                .state(&toss.motion, &toss.spin, true, &walk.model.units)
+                .position_m
+                .z
+        };
+        let before = shown(&walk);
+        walk.leave();
+        assert!(
+            (walk.toss.motion.z - (rest + above.max(0.0))).abs() < 1e-12,
+            "{angle} {above}"
+        );
+        assert!((shown(&walk) - before).abs() < 1e-12, "{angle} {above}");
+        assert_eq!(walk.toss.heads_up != heads_up, points_down);
+        assert!(walk.toss.motion.cos > 0.0);
+    }
+}
+
+/// Between nodes the faster rim goes `ground_step` ℓ, or so many times as far as bumps matter less.
+#[test]
+fn the_faster_rim_goes_a_step_between_nodes() {
+    let rough = Rough::of(0.7, 0.05);
+    let settings = Settings {
+        ground_step: 0.3,
+        ..Settings::default()
+    };
+    let model = Model::new(&rough.scene(), &settings, Moreau).expect("valid settings");
+    let ground = model.ground.expect("a rough ground");
+    let mut toss = leaning(&model, 0.1, [0.0, 0.9, 0.0]);
+    let (mut usage, mut observer) = (Usage::default(), ());
+    let walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+    assert_eq!(walk.stride(), 1.0);
+    let time = walk.time_between_nodes();
+    assert!(
+        (0.9 * time / (0.3 * ground.length) - 1.0).abs() < 1e-12,
+        "{time}"
+    );
+}
+
+/// The track of a rim that comes near the ground begins at it, or at the rim where that would be in the ground.
+#[test]
+fn a_rim_that_comes_near_is_above_its_track() {
+    let model = Rough::of(0.7, 0.05).model();
+    let ground = model.ground.expect("a rough ground");
+    let (mut free, mut cut) = (0, 0);
+    for number in 0..60 {
+        let mut dice = Dice::new(571, number);
+        let mut toss = leaning(&model, dice.between(0.0, 0.004), [0.1, 0.2, 0.0]);
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        walk.place = Place::at([dice.between(0.0, 1.0), dice.between(0.0, 1.0)], [0.6, 0.8]);
+        walk.put_down();
+        assert!(!walk.tracks.other.near);
+        walk.lay_out_tracks_for(1e-9);
+        let [own, other] = rim_points(walk.body(), &walk.toss.motion, &walk.toss.spin);
+        let rim = walk.tracks.own.height + (other.rz - own.rz);
+        let under = carried_now(
+            &ground,
+            walk.body(),
+            &walk.toss.motion,
+            &walk.place,
+            other.rx,
+        )
+        .0;
+        assert!(
+            (walk.tracks.other.height - under.min(rim)).abs() < 1e-9,
+            "{under} {rim}"
+        );
+        *(if under < rim { &mut free } else { &mut cut }) += 1;
+    }
+    assert!(free > 10 && cut > 10, "{free} {cut}");
 }
