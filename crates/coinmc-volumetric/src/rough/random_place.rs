@@ -51,7 +51,7 @@ mod tests {
     fn places_and_headings_are_spread_evenly() {
         let (ground, count) = (ground(), 4_000);
         let side = HeightField::LENGTH * ground.length;
-        let mut sums = [[0.0; 5]; 2];
+        let mut sums = [[0.0; 2]; 5];
         for number in 0..count {
             let (place, uniform) = ground.random_place(&motion(f64::from(number)), 0);
             let ([x, y], [cos, sin]) = (place.point(0.0, 0.0), place.direction(1.0, 0.0));
@@ -67,13 +67,13 @@ mod tests {
                 .enumerate()
             {
                 assert!(number.abs() <= 1.0, "{number}");
-                sums[0][i] += number;
-                sums[1][i] += number * number;
+                sums[i][0] += number;
+                sums[i][1] += number * number;
             }
         }
         let error = 1.0 / f64::from(count).sqrt();
-        for i in 0..5 {
-            let [mean, square] = [sums[0][i], sums[1][i]].map(|sum| sum / f64::from(count));
+        for (i, sums) in sums.into_iter().enumerate() {
+            let [mean, square] = sums.map(|sum| sum / f64::from(count));
             let variance: f64 = if i < 3 { 1.0 / 3.0 } else { 0.5 };
             assert!(mean.abs() < 4.0 * variance.sqrt() * error, "{i}: {mean}");
             // the fourth moments are 1/5 and 3/8

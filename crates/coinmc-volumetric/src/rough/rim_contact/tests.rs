@@ -300,7 +300,7 @@ fn a_jam_ends_the_slip() {
             if walk.usage.jams > 0 {
                 jams += 1;
                 assert_eq!((walk.usage.jams, contact.mode), (1, Mode::Stick));
-                assert!(point.slip_x.hypot(point.slip_y) < 1e-9);
+                assert!(libm::hypot(point.slip_x, point.slip_y) < 1e-9);
                 assert!(walk.energy() < energy);
             } else {
                 assert_eq!(contact.mode, Mode::Slip);
