@@ -135,6 +135,22 @@ fn rule_7_an_emergency_stop_is_latched() {
     assert_eq!(bed.status().fault, fault::EMERGENCY);
 }
 
+/// The memory of a journal wears out: one entry a stop, however long it is pressed, and after whatever fault.
+#[test]
+fn rule_7_an_emergency_stop_is_written_down_once() {
+    let mut bed = TestBed::ready();
+    bed.bring_to(State::Flying);
+    bed.request(&Request::Stop);
+    assert_eq!(bed.status().fault, fault::STOPPED);
+    bed.device.hardware_mut().stored = None;
+    bed.device.hardware_mut().stopped = true;
+    bed.pass(10);
+    let stored = bed.device.hardware_mut().stored.take();
+    assert_eq!(stored.map(|record| record.phase), Some(State::Fault));
+    bed.pass(1_000);
+    assert_eq!(bed.device.hardware().stored, None);
+}
+
 #[test]
 fn the_status_says_whose_throw_it_is() {
     let mut bed = TestBed::ready();

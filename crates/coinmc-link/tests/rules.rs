@@ -201,6 +201,45 @@ fn requests_in_the_wrong_state_are_rejected() {
     assert_eq!(bed.status().fault, fault::STOPPED);
 }
 
+/// The reply to a host whose first reply was lost, even with its session.
+#[test]
+fn a_collected_coin_may_be_collected_again_with_the_same_reply() {
+    let mut bed = TestBed::ready();
+    bed.bring_to(State::Returning);
+    let collect = Request::Collect { throw_id: 1 };
+    assert_eq!(bed.request(&collect), ok(1, State::Returning));
+    bed.bring_on(State::Idle);
+    bed.hello(8);
+    assert_eq!(bed.request(&collect), ok(1, State::Idle));
+}
+
+#[test]
+fn a_robot_that_has_not_started_yet_is_busy() {
+    let mut bench = Bench::default();
+    bench.never_ready = true;
+    let mut bed = TestBed::new(bench);
+    assert_eq!(bed.hello(7).state, State::Boot);
+    assert_eq!(bed.throw(1), Reply::Nak(Nak::Busy));
+    let home = Request::Home { axes: 1 };
+    assert_eq!(bed.request(&home), Reply::Nak(Nak::Busy));
+}
+
+/// Either is enough: a motion that nobody has seen end, and something that still moves on its own.
+#[test]
+fn nothing_is_thrown_before_everything_stands_still() {
+    let mut bed = TestBed::ready();
+    bed.request(&Request::Home { axes: 1 });
+    // it has ended, but no tick has looked
+    bed.device.hardware_mut().now_ms += 1_000;
+    assert_eq!(bed.throw(1), Reply::Nak(Nak::Busy));
+
+    let mut bed = TestBed::ready();
+    bed.device.hardware_mut().never_ready = true;
+    assert_eq!(bed.throw(1), Reply::Nak(Nak::Busy));
+    bed.device.hardware_mut().never_ready = false;
+    assert_eq!(bed.throw(1), ok(1, State::Aiming));
+}
+
 /// Random sequences of requests, repetitions, pauses and resets.
 #[test]
 fn no_sequence_of_events_breaks_a_rule() {
@@ -280,6 +319,18 @@ fn any_request(random: &mut Random, id: &mut u32, bed: &mut TestBed) -> Request 
         }
         10 => Request::Light { permille: 500 },
         _ => Request::Status,
+    }
+}
+
+/// Limits of the protocol, in each direction by itself.
+#[test]
+fn no_carriage_goes_farther_than_two_metres() {
+    const REACH_UM: i32 = 2_000_000;
+    let is_allowed = |x_um, y_um| Request::MoveCarriage { x_um, y_um }.check().is_ok();
+    for sign in [1, -1] {
+        assert!(is_allowed(sign * REACH_UM, -sign * REACH_UM));
+        assert!(!is_allowed(sign * (REACH_UM + 1), 0));
+        assert!(!is_allowed(0, sign * (REACH_UM + 1)));
     }
 }
 

@@ -58,9 +58,11 @@ impl Switches {
         (self.edits.at(span.start()), self.edits.at(span.end()))
     }
 
-    /// A function that returns something else at once.
-    fn function(&mut self, body: &syn::Block) {
-        if let Some(first) = body.stmts.first() {
+    /// A function that returns something else at once; not of another type, where the type has no name.
+    fn function(&mut self, signature: &syn::Signature, body: &syn::Block) {
+        let returned = signature.output.to_token_stream().to_string();
+        let named = !returned.split_whitespace().any(|word| word == "impl");
+        if let Some(first) = body.stmts.first().filter(|_| named) {
             let mutants = self.take(first.span().start(), "FnValue");
             let at = self.edits.at(body.brace_token.span.open().end());
             for mutant in mutants {
@@ -180,19 +182,19 @@ fn is_test(attributes: &[syn::Attribute]) -> bool {
 impl<'a> Visit<'a> for Switches {
     fn visit_item_fn(&mut self, function: &'a syn::ItemFn) {
         if !is_test(&function.attrs) {
-            self.function(&function.block);
+            self.function(&function.sig, &function.block);
         }
     }
 
     fn visit_impl_item_fn(&mut self, function: &'a syn::ImplItemFn) {
         if !is_test(&function.attrs) {
-            self.function(&function.block);
+            self.function(&function.sig, &function.block);
         }
     }
 
     fn visit_trait_item_fn(&mut self, function: &'a syn::TraitItemFn) {
         if let Some(body) = &function.default {
-            self.function(body);
+            self.function(&function.sig, body);
         }
     }
 
