@@ -45,20 +45,20 @@ fn felt(ratio: f64) -> Template {
         .expect("an override")])
 }
 
-/// Of 200 intervals of 95 % at most 5 % + 3.3 standard errors miss, 20: false alarm below 1e-3 if it were
-/// 5 %. Every answer is as short as asked for, and takes several times fewer tosses than brute force.
+/// Of 100 intervals of 95 % at most 13 miss: if it were 5 %, more would with a probability of 5e-4. Every
+/// answer is as short as asked for, and takes several times fewer tosses than brute force.
 #[test]
 fn intervals_hold_the_closed_form_as_often_as_they_say() {
     let known = FRAC_2_PI * libm::atan(0.005);
     let mut missed = 0;
-    for seed in 0..200 {
+    for seed in 0..100 {
         let answer = ask(&arc(0.01, seed), &question(), 2).expect("an answer");
         assert!(answer.reached, "{:?}", answer.p);
         assert!(answer.p.half_width() <= 0.1 * answer.p.value);
         assert!(answer.gain().tosses > 2.0, "{:?}", answer.gain());
         missed += usize::from(!(answer.p.lo <= known && known <= answer.p.hi));
     }
-    assert!(missed <= 20, "{missed}");
+    assert!(missed <= 13, "{missed}");
 }
 
 /// A coin that is dropped onto soft ground.

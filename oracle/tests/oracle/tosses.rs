@@ -129,5 +129,5 @@ fn a_coin_without_restitution_meets_an_earlier_value() {
 /// By energy alone a thick coin with little rolling friction takes 250 ms a toss.
 #[test]
 fn a_thick_coin_without_restitution_meets_an_earlier_value() {
-    meets(2.0, 0.003, 0.9061, 150);
+    meets(2.0, 0.003, 0.9061, 80);
 }

@@ -65,13 +65,13 @@ fn follow(looks: &mut Looks, p: f64, source: &mut Source) -> (Tally, Verdict) {
     }
 }
 
-/// Of 2000 points whose looks depend on chance, 5 % may miss. The first look has 4.85 %, of which discreteness
-/// takes some: 3.8 % to 4.8 % are expected, so that more than 6.25 % (3 standard deviations above 4.8 %) are
+/// Of 1000 points whose looks depend on chance, 5 % may miss. The first look has 4.85 %, of which discreteness
+/// takes some: 3.8 % to 4.8 % are expected, so that more than 6.83 % (3 standard deviations above 4.8 %) are
 /// an error. The tosses are compared with those of a number fixed beforehand by whoever knows p, z² p (1 −
 /// p)/h².
 #[test]
 fn looks_keep_the_stated_coverage_and_cost_little() {
-    const POINTS: u32 = 2000;
+    const POINTS: u32 = 1000;
     let targets = |half_width, relative_error| Targets {
         half_width,
         relative_error,
@@ -111,7 +111,7 @@ fn looks_keep_the_stated_coverage_and_cost_little() {
         }
         let share = f64::from(missed) / f64::from(POINTS);
         assert!(
-            share <= 0.0625 && share > 0.01,
+            share <= 0.0683 && share > 0.01,
             "{missed} of {POINTS} at {p}"
         );
         let arm = targets
@@ -125,7 +125,7 @@ fn looks_keep_the_stated_coverage_and_cost_little() {
         };
         let fixed = 1.96 * 1.96 * worst * (1.0 - worst) / (arm * arm);
         let ratio = tosses as f64 / f64::from(POINTS) / fixed;
-        // with --nocapture: the table of docs/methods/sampling.md
+        // with --nocapture: the table of docs/methods/sampling.md, which is of 2000 points
         println!("{p}: {missed} of {POINTS} miss, {ratio:.2} times the tosses");
         assert!(ratio < most, "{ratio} times the tosses at {p}");
     }
