@@ -184,4 +184,14 @@ mod tests {
         }
         assert!(TableTilt::new(0.0, -720.0).unwrap().is_level());
     }
+
+    /// sin, cos and tan of 30° would be round, but a table tilts by 10° at most: 5°, from tables.
+    #[test]
+    fn a_tilt_tells_its_angles_and_their_functions() {
+        let tilt = TableTilt::new(5.0, 120.0).unwrap();
+        assert_eq!((tilt.angle_deg(), tilt.direction_deg()), (5.0, 120.0));
+        // 4 ulp: the angle in radians, a sine, a cosine and a quotient are rounded
+        assert!((tilt.slope() / 0.087_488_663_525_924_01 - 1.0).abs() < 4.0 * f64::EPSILON);
+        assert!((tilt.cos() / 0.996_194_698_091_745_5 - 1.0).abs() < 4.0 * f64::EPSILON);
+    }
 }

@@ -260,9 +260,33 @@ fn every_preset_is_valid_and_found_by_its_name() {
     for preset in Preset::ALL {
         assert_eq!(preset.name().parse(), Ok(preset));
         preset.distribution().validate().unwrap();
-        assert!(!preset.source().is_empty());
     }
     assert!("robots".parse::<Preset>().is_err());
+}
+
+#[test]
+fn every_preset_cites_its_paper_or_says_that_it_is_ours() {
+    for preset in Preset::ALL {
+        let cited = match preset {
+            Preset::Robot | Preset::Table1 => "arXiv 2401.03557",
+            Preset::Hand => "Amer. Math. Monthly 93",
+            Preset::Clean | Preset::CleanFlat | Preset::Drop => "Ours",
+        };
+        assert!(preset.source().contains(cited), "{preset}");
+    }
+}
+
+/// 3.5 rad/s about an axis with three different components.
+#[test]
+fn a_spin_about_an_axis_is_its_rate_along_the_axis() {
+    let axis = UnitVector3::new_normalize(Vector3::new(1.0, -2.0, 3.0));
+    let spin = Spin::About {
+        axis,
+        rate_rad_s: Marginal::Constant(3.5),
+    };
+    let stream = Stream::new(11, Domain::Launch, 3);
+    let omega = spin.angular_velocity(&coin(), &Vector3::z_axis(), &mut stream.toss(0));
+    assert_eq!(omega, 3.5 * *axis);
 }
 
 /// The axis may point anywhere, the poles included, and stay orthogonal to what completes it.
@@ -332,6 +356,19 @@ fn distributions() -> Vec<LaunchDistribution> {
         .flat_map(each)
         .chain(presets)
         .collect()
+}
+
+#[test]
+fn launches_know_how_many_are_left() {
+    let stream = Stream::new(11, Domain::Launch, 3);
+    let mut launches =
+        Preset::Clean
+            .distribution()
+            .launches(&coin(), &stream, 3..21, Lanes::Scalar);
+    for left in (0..=18).rev() {
+        assert_eq!(launches.size_hint(), (left, Some(left)));
+        assert_eq!(launches.next().is_some(), left > 0);
+    }
 }
 
 #[test]

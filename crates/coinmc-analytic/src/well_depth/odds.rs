@@ -40,3 +40,26 @@ pub(super) fn solve(target: f64, guess: f64, odds: impl Fn(f64) -> Odds) -> f64 
     }
     ratio
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::Cell;
+
+    /// For a power law one step of Newton's method on logarithms arrives; a second sees that.
+    #[test]
+    fn the_search_ends_with_the_first_short_step() {
+        let steps = Cell::new(0);
+        let cube = |ratio: f64| {
+            steps.set(steps.get() + 1);
+            Odds {
+                value: ratio * ratio * ratio,
+                log_slope: 3.0,
+            }
+        };
+        let found = solve(8.0, 1.0, cube);
+        // a logarithm and an exponential of numbers near 1
+        assert!((found - 2.0).abs() < 4.0 * f64::EPSILON, "{found}");
+        assert_eq!(steps.get(), 2);
+    }
+}

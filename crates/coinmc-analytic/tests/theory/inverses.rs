@@ -2,7 +2,7 @@
 
 use coinmc_analytic::precession::{thick, thin};
 use coinmc_analytic::{FaceProbabilities, Rule};
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 /// Targets by powers of two, 2⁻¹⁰⁰ … ½ … 1 − 2⁻⁵³, and others between.
 fn targets() -> impl Iterator<Item = f64> {
@@ -137,7 +137,8 @@ fn precessing_coin_starts_to_reach_its_side_at_the_returned_edge() {
     }
     assert_eq!(thick::fair_ratio(0.0, 1.0), 0.0);
     assert_eq!(thick::fair_ratio(1.0, 1.0), f64::INFINITY);
-    assert!(thick::fair_ratio(0.5, 0.0).is_nan());
+    // A coin that never tips, heads along its angular momentum or against it.
+    assert!(thick::fair_ratio(0.5, 0.0).is_nan() && thick::fair_ratio(0.5, PI).is_nan());
 }
 
 #[test]

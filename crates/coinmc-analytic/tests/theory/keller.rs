@@ -118,6 +118,10 @@ fn bias_bound_holds_and_is_reached() {
 #[test]
 fn no_face_is_claimed_outside_the_domain() {
     assert!(half_turns(-1.0, 1.0, GRAVITY).is_nan() && half_turns(1.0, 1.0, -GRAVITY).is_nan());
+    // Without gravity the coin never returns.
+    let band = HeadsBand::after_turns(1, 2.4, 0.0);
+    assert!(half_turns(2.4, 238.6, 0.0).is_nan());
+    assert!(band.slowest_rad_s.is_nan() && band.fastest_rad_s.is_nan());
     assert!(!is_heads(f64::INFINITY));
     assert!(p_heads_in_window(1.0, 0.0).is_nan() && p_heads_in_window(0.0, f64::INFINITY).is_nan());
     assert_eq!(

@@ -38,6 +38,26 @@ fn thin_coins_follow_the_leading_power() {
 }
 
 #[test]
+fn the_thinnest_coins_keep_the_leading_power() {
+    // Powers of two down to where numbers end, whose halves are exact.
+    for ratio in (0..1070).map(|k| 0.5f64.powi(k)).filter(|x| *x < 1e-20) {
+        assert_eq!(Rule::Zone.p_side(ratio), 0.5 * ratio);
+    }
+    // Targets that only a ratio below 1e-20 reaches, where x³/(8π) and x³/16 are exact to rounding.
+    for (rule, factor) in [
+        (Rule::WellDepthFlat, 8.0 * PI),
+        (Rule::WellDepthSolid, 16.0),
+    ] {
+        for decade in 21..100 {
+            let ratio = libm::exp10(-f64::from(decade));
+            let found = rule.fair_ratio(ratio * ratio * ratio / factor);
+            // Six roundings of the cube, which count a third each, and one of the cube root.
+            assert!((found / ratio - 1.0).abs() < 1e-15, "{rule}: {found:e}");
+        }
+    }
+}
+
+#[test]
 fn thick_coins_follow_the_leading_power() {
     let thick: [(f64, i32); 6] = [
         (4.0 / PI, 1),

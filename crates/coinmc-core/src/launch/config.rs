@@ -183,4 +183,64 @@ mod tests {
         );
         assert!(error.help().is_some() && error.to_string().contains("from 2 to 1"));
     }
+
+    fn direction(components: [f64; 3]) -> Value {
+        Value::Vector(components.map(Value::Number).to_vec())
+    }
+
+    #[test]
+    fn a_direction_may_have_any_length_but_zero() {
+        let wanted = Vector3::new(0.6, 0.0, -0.8);
+        for length in [1e-299, 1e-200, 1.0, 1e6] {
+            let axis = read_direction(&direction((wanted * length).into())).unwrap();
+            // a few ulp: quotients, a norm
+            assert!((*axis - wanted).norm() < 1e-15, "{length:e}: {axis:?}");
+        }
+        // the shortest that is not 0
+        let axis = read_direction(&direction([0.0, 1e-300, 0.0])).unwrap();
+        assert_eq!(axis, Vector3::y_axis());
+        let error = read_direction(&direction([0.0; 3])).unwrap_err();
+        assert!(error.to_string().contains("length 0"), "{error}");
+    }
+
+    #[test]
+    fn a_direction_may_point_along_either_sense_of_an_axis() {
+        let Kind::Vector(component) = direction_kind() else {
+            panic!("three components");
+        };
+        let Kind::Number(bounds) = *component else {
+            panic!("numbers");
+        };
+        assert!(
+            [-1e6, -1.0, 0.0, 1.0, 1e6]
+                .iter()
+                .all(|x| bounds.contains(*x))
+        );
+    }
+
+    #[test]
+    fn without_a_preset_a_coin_begins_at_rest() {
+        let rest = read_vector(
+            LaunchDistribution::defaults()
+                .required("velocity_m_s")
+                .unwrap(),
+        );
+        assert_eq!(rest, Ok([Marginal::Constant(0.0); 3]));
+    }
+
+    /// Tenths of a degree, of which many are not the quotient by π/180 of their own radians.
+    #[test]
+    fn angles_are_written_in_round_degrees() {
+        let degrees = || (-3600..=3600).map(|tenths| f64::from(tenths) / 10.0);
+        let found = degrees().filter(|deg| deg.to_radians().to_degrees() != *deg);
+        assert!(found.count() > 100, "else nothing is tested");
+        for deg in degrees() {
+            assert_eq!(to_degrees(deg.to_radians()), deg);
+        }
+    }
+
+    #[test]
+    fn no_angle_is_written_as_minus_zero() {
+        assert_eq!(to_degrees(-0.0).to_bits(), 0.0_f64.to_bits());
+    }
 }

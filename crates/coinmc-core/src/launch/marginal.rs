@@ -281,6 +281,7 @@ const FAR_DENOMINATOR: [f64; 8] = [
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::UniformSource;
 
     /// Φ(x) = erfc(−x/√2)/2, with the tail kept relative.
     #[test]
@@ -318,5 +319,33 @@ mod tests {
             assert!(bad.validate().is_err(), "{bad:?}");
         }
         assert!(Marginal::Uniform { from: 1.0, to: 1.0 }.validate().is_ok());
+    }
+
+    #[test]
+    fn a_normal_may_have_no_spread_but_a_uniform_of_a_config_must_have_some() {
+        let constant = Marginal::Normal { mean: 1.0, sd: 0.0 };
+        assert!(constant.validate().is_ok());
+        let empty = Marginal::Uniform { from: 1.0, to: 1.0 };
+        let error = Marginal::read(&empty.value()).unwrap_err();
+        assert_eq!(error.path().collect::<Vec<_>>(), ["to"]);
+    }
+
+    #[test]
+    fn a_constant_draws_no_random_number() {
+        struct Nothing;
+        impl UniformSource for Nothing {
+            fn uniform(&mut self, dimension: u32) -> f64 {
+                panic!("a number was drawn from {dimension}");
+            }
+        }
+        assert_eq!(Marginal::Constant(1.5).sample::<f64>(0, &mut Nothing), 1.5);
+    }
+
+    /// 1 + 2x + … + 8x⁷ is the derivative of (x⁹ − 1)/(x − 1): 7·2⁸ + 1 at 2.
+    #[test]
+    fn a_polynomial_begins_with_its_constant() {
+        let coefficients = std::array::from_fn(|i| f64::from(u8::try_from(i).unwrap()) + 1.0);
+        assert_eq!(polynomial(&coefficients, 0.0), 1.0);
+        assert_eq!(polynomial(&coefficients, 2.0), 7.0 * 256.0 + 1.0);
     }
 }

@@ -111,7 +111,7 @@ mod tests {
     use super::*;
     use crate::{Domain, Stream, UniformSource};
     use coinmc_lanes::{Block, Lanes, WIDTH, Wide, Work};
-    use std::f64::consts::{FRAC_PI_4, TAU};
+    use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
     struct Both(Block);
 
@@ -164,6 +164,18 @@ mod tests {
                 let number = of[i / 2 % of.len()];
                 if i % 2 == 0 { number } else { -number }
             }));
+        }
+    }
+
+    /// Away from multiples of π/2 libm subtracts them by Cody and Waite's method, as here; at them it
+    /// takes more digits, beyond 9π/4 it divides, and a tiny number is its own sine.
+    #[test]
+    fn most_angles_need_no_call_of_libm() {
+        for (size, times) in [(0.5, 0.0), (1.0, 1.0), (3.0, 2.0), (5.0, 3.0), (6.0, 4.0)] {
+            assert_eq!(quadrant(size), (times, true), "{size}");
+        }
+        for size in [1e-9, PI / 2.0, PI, 1.5 * PI, TAU, 7.5] {
+            assert!(!quadrant(size).1, "{size}");
         }
     }
 }
