@@ -78,3 +78,64 @@ impl<L: ImpactLaw> Conical<L> {
         m.cos == edge.cos && approaches(m.vz, toss.spin.tilt * edge.reach[1])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::conical::tests::{conical, launch};
+    use crate::laws::Moreau;
+    use crate::motion::Spin;
+    use coinmc_testkit::Dice;
+
+    /// A toss on its edge, on the rim of tails, that moves like this.
+    fn on_edge(conical: &Conical<Moreau>, vz: f64, tilt_rate: f64) -> Toss {
+        let mut toss = conical.launch(&launch(&mut Dice::new(80, 0)));
+        if !toss.heads_up {
+            toss.turn_over();
+        }
+        conical.touch_with_edge(&mut toss);
+        toss.motion.vz = vz;
+        toss.spin = Spin {
+            axial: 0.0,
+            turn: 0.0,
+            tilt: tilt_rate,
+        };
+        toss
+    }
+
+    /// Its other rim strikes next if it sinks there, and the change is counted; after too many the coin is laid down.
+    #[test]
+    fn changes_of_rim_are_counted_until_the_coin_is_laid_down() {
+        let conical = conical();
+        let mut usage = Usage::default();
+        // so that the other rim sinks at the speed 1
+        let tilt_rate = 1.5 / conical.edges[0].reach[1];
+        for counted in [0, 1, MAX_RIM_CHANGES] {
+            let mut toss = on_edge(&conical, 0.5, tilt_rate);
+            toss.rim_changes = counted;
+            let before = toss.heads_up;
+            let next = conical.after_impact(&mut toss, Transition::Contact, &mut usage, &mut ());
+            assert_eq!(next, Transition::Impact);
+            assert_eq!((toss.rim_changes, toss.heads_up), (counted + 1, !before));
+        }
+        for counted in [MAX_RIM_CHANGES + 1, MAX_RIM_CHANGES + 2] {
+            let mut toss = on_edge(&conical, 0.5, tilt_rate);
+            toss.rim_changes = counted;
+            let next = conical.after_impact(&mut toss, Transition::Impact, &mut usage, &mut ());
+            assert!(!matches!(next, Transition::Impact), "{counted}");
+            assert_eq!(toss.rim_changes, 0);
+        }
+    }
+
+    /// Only a coin that is near its edge and hardly moves up, down or over barely rocks.
+    #[test]
+    fn each_motion_alone_is_rocking() {
+        let conical = conical();
+        assert!(conical.barely_rocks(&on_edge(&conical, 0.0, 0.0)));
+        assert!(!conical.barely_rocks(&on_edge(&conical, 0.1, 0.0)));
+        assert!(!conical.barely_rocks(&on_edge(&conical, 0.0, 0.1)));
+        let mut leans = on_edge(&conical, 0.0, 0.0);
+        leans.motion.set_tilt(0.8, 0.6);
+        assert!(!conical.barely_rocks(&leans));
+    }
+}

@@ -3,8 +3,9 @@
 use super::Conical;
 use super::edge::{Edge, EdgeState};
 use crate::body::Friction;
-use crate::contact::Dynamics;
+use crate::contact::{Dynamics, Usage};
 use crate::drag::Drag;
+use crate::flight::Departure;
 use crate::laws::Moreau;
 use crate::settings::Settings;
 use crate::toss::tests::stops_plainly;
@@ -328,7 +329,7 @@ fn a_sliding_coin_may_be_overturned_as_one_that_rolls() {
 }
 
 /// A coin with draft and friction lengths.
-fn conical() -> Conical<Moreau> {
+pub(super) fn conical() -> Conical<Moreau> {
     let coin = Coin::cylinder(0.4, 0.01).and_then(|coin| coin.with_draft(7.0));
     let surface = Surface::new(0.5, 0.3)
         .and_then(|surface| surface.with_friction_lengths(1e-4, 2e-5))
@@ -338,7 +339,7 @@ fn conical() -> Conical<Moreau> {
     conical.expect("unlike faces")
 }
 
-fn launch(dice: &mut Dice) -> Launch {
+pub(super) fn launch(dice: &mut Dice) -> Launch {
     Launch {
         height_m: 0.1,
         velocity_m_s: Vector3::new(0.2, 0.0, 0.5),
@@ -382,4 +383,34 @@ fn a_toss_of_which_enough_is_seen_is_not_followed() {
         .outcome;
     assert_eq!(seen.0, [EventKind::Launched, EventKind::Ended]);
     assert_eq!((outcome.impacts, outcome.face()), (0, None));
+}
+
+/// Where a flight ends one rim touches, and the other is not below the surface. The clock goes on from where it was.
+#[test]
+fn a_flight_ends_where_the_first_rim_touches() {
+    let conical = conical();
+    let mut turned = 0;
+    for trial in 0..200 {
+        let launch = launch(&mut Dice::new(79, trial));
+        let [soon, late] = [0.0, 7.0].map(|begun| {
+            let mut toss = conical.launch(&launch);
+            let up = toss.heads_up;
+            let mut usage = Usage {
+                time: begun,
+                ..Usage::default()
+            };
+            assert!(conical.fly(&mut toss, &mut usage, Departure::Launched, &mut ()));
+            let own = &conical.model(&toss).dynamics.body;
+            let other = &conical.models[usize::from(toss.heads_up)].dynamics.body;
+            let m = &toss.motion;
+            let lowest = m.z - own.half * m.cos - own.radius * m.sin;
+            let others = m.z + other.half * m.cos - other.radius * m.sin;
+            assert!(lowest.abs() < 1e-12, "{trial}: {lowest}");
+            assert!(others > -1e-9, "{trial}: {others}");
+            turned += u32::from(toss.heads_up != up);
+            usage.time
+        });
+        assert!(soon > 0.0 && (late - soon - 7.0).abs() < 1e-12);
+    }
+    assert!(turned > 50, "both rims touch first now and then: {turned}");
 }

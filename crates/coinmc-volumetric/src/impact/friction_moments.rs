@@ -355,4 +355,45 @@ mod tests {
         }
         assert!(kinds.iter().all(|kind| *kind > 50), "{kinds:?}");
     }
+
+    /// What rolls or turns after the impact does so against friction at its limit, and what friction can hold stops,
+    /// both at once: with a given impulse along y, too.
+    #[test]
+    fn held_friction_stops_what_it_can_and_opposes_what_it_cannot() {
+        let mut kinds = [0; 4];
+        for trial in 0..2000 {
+            let mut dice = Dice::new(323, trial);
+            let coin = Coin::cylinder(libm::exp(dice.between(-2.0, 1.0)), 0.01);
+            let body = Body::new(&coin.expect("a valid coin"));
+            let friction = Friction {
+                mu: 0.3,
+                contour: dice.between(0.0, 0.5),
+                pivoting: dice.between(0.0, 0.5),
+            };
+            let tilt = libm::sincos(dice.between(0.2, 1.5));
+            let mut part = || dice.between(-1.0, 1.0);
+            let point = ContactPoint::at(&body, tilt, [part(), part(), -1.0], [part(), part()]);
+            let yy = point.matrix(&body).yy;
+            let (y, z) = (dice.between(-1.0, 1.0), dice.between(0.1, 2.0));
+            let (c, p) = FrictionMoments::new(&body, &friction, &point, yy).held(y, z);
+            let r = RimRates::rates(&body, &point);
+            let roll = r.roll + r.roll_y * y - r.roll_roll * c - r.roll_pivot * p;
+            let pivot = r.pivot + r.pivot_y * y - r.roll_pivot * c - r.pivot_pivot * p;
+            let mut kind = 0;
+            for (bit, value, limit, rate) in [
+                (1, c, friction.contour / point.sin * z, roll),
+                (2, p, friction.pivoting * z, pivot),
+            ] {
+                assert!(value.abs() <= limit);
+                if value.abs() < limit {
+                    assert!(rate.abs() < 1e-13, "{trial}: {value} of {limit}, {rate}");
+                } else {
+                    kind |= bit;
+                    assert!(rate * value > -1e-13, "{trial}: {value} of {limit}, {rate}");
+                }
+            }
+            kinds[kind] += 1;
+        }
+        assert!(kinds.iter().all(|kind| *kind > 50), "{kinds:?}");
+    }
 }
