@@ -134,6 +134,8 @@ mod tests {
         assert!(!approaches(0.4, 0.3) && !approaches(-0.2, -0.3) && !approaches(0.3, 0.3));
         // differences of 1e-12 and 1e-14 of the speeds
         assert!(approaches(0.3, 0.3 * (1.0 + 1e-12)) && !approaches(0.3, 0.3 * (1.0 + 1e-14)));
+        // of slow ones, too
+        assert!(approaches(3e-4, 3e-4 * (1.0 + 1e-12)) && !approaches(3e-4, 3e-4 * (1.0 + 1e-14)));
         // added, these speeds cancel: it is their size that counts
         assert!(approaches(-0.3, -0.3 * (1.0 - 1e-12)) && !approaches(-0.3, -0.3 * (1.0 - 1e-14)));
     }
@@ -167,6 +169,39 @@ mod tests {
         }
         toss.motion.cos = 0.1;
         assert!(!model.other_rim_approaches(&toss));
+    }
+
+    /// If it does, it strikes next, and the change is counted; after too many the coin is laid down.
+    #[test]
+    fn changes_of_rim_are_counted_until_the_coin_is_laid_down() {
+        let model = model_of(
+            &generic_scene(|surface| surface),
+            &crate::settings::Settings::default(),
+        );
+        for counted in [
+            0,
+            1,
+            MAX_RIM_CHANGES,
+            MAX_RIM_CHANGES + 1,
+            2 * MAX_RIM_CHANGES,
+        ] {
+            let mut toss = model.launch(&still(Vector3::x()));
+            toss.motion.cos = 0.0;
+            toss.motion.vz = 0.5 * model.dynamics.body.half;
+            toss.spin = Spin {
+                tilt: 1.0,
+                ..Spin::still()
+            };
+            toss.rim_changes = counted;
+            let mut solver = model.contact_solver(crate::contact::Usage::default());
+            let next = model.after_impact(&mut toss, Transition::Contact, &mut solver, &mut ());
+            if counted <= MAX_RIM_CHANGES {
+                assert_eq!((next, toss.rim_changes), (Transition::Impact, counted + 1));
+            } else {
+                assert_ne!(next, Transition::Impact);
+                assert_eq!(toss.rim_changes, 0);
+            }
+        }
     }
 
     /// Of a level coin the point of its rim sinks fastest towards which it tilts, at R ω relative to the centre.

@@ -295,6 +295,46 @@ pub(crate) mod tests {
         }
     }
 
+    /// A thick coin that slides along its axis on its side is stopped by μ m g, and the clock goes on from where it was.
+    #[test]
+    fn sliding_on_the_side_takes_the_time_that_friction_takes() {
+        let coin = Coin::cylinder(2.0, 0.01).expect("a valid coin");
+        let surface = Surface::new(0.5, 0.1).and_then(|it| it.with_friction_lengths(1e-4, 1e-5));
+        let scene = Scene::new(coin, surface.expect("a valid surface"), 9.81);
+        let settings = Settings {
+            decision: Decision::Energy,
+            ..Settings::default()
+        };
+        let model = model_of(&scene.expect("a valid scene"), &settings);
+        // more than what decides its face
+        let speed = 2.0;
+        for begun in [0.0, 3.0] {
+            let mut solver = model.contact_solver(Usage {
+                time: begun,
+                ..Usage::default()
+            });
+            let state = [speed, 0.0, 0.0, 0.0];
+            let (mut motion, mut spin) = line_motion(&model.dynamics, &state);
+            let mut adapter = ObserverAdapter {
+                observer: &mut (),
+                place: &mut Place::at([0.0; 2], [1.0, 0.0]),
+                heads_up: true,
+                units: &model.units,
+            };
+            let exit = solver.follow_on_side(&mut motion, &mut spin, &mut adapter);
+            assert!(matches!(
+                exit,
+                SideExit::Leaves(Exit::Decided(Decided::Side))
+            ));
+            let took = solver.usage.time - begun;
+            let slower = speed - motion.vx;
+            assert!(
+                slower > 0.5 && (took / (slower / 0.1) - 1.0).abs() < 1e-3,
+                "{took} {slower}"
+            );
+        }
+    }
+
     /// Both rims stay down for sure while the moment of the weight, h/2 of it, is not exceeded by those of friction
     /// and of the turning angular momentum, ω × L. A coin that slides is taken as fast as one that rolls.
     #[test]
