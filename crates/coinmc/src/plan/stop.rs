@@ -215,6 +215,25 @@ mod tests {
     }
 
     #[test]
+    fn only_limits_of_computing_time_depend_on_the_speed_of_a_machine() {
+        let counts = Targets {
+            half_width: Some(0.01),
+            total_tosses: Some(1000),
+            ..NONE
+        };
+        assert!(!NONE.is_timed() && !counts.is_timed());
+        let of_a_point = Targets {
+            max_core_seconds: Some(1.0),
+            ..counts
+        };
+        let of_the_run = Targets {
+            total_core_seconds: Some(1.0),
+            ..counts
+        };
+        assert!(of_a_point.is_timed() && of_the_run.is_timed());
+    }
+
+    #[test]
     fn rules_are_found_by_their_names() {
         for rule in StoppedBy::ALL {
             assert_eq!(StoppedBy::named(rule.name()), Some(rule));

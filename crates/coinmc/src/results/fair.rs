@@ -9,8 +9,8 @@
 //!   their errors are independent, or linearly where the points share random numbers;
 //! * and the distance between that polynomial and the straight line between the neighbours: the
 //!   error of interpolation by a straight line, and so more than that of the polynomial. It
-//!   vanishes at the points. With only two points nothing is known about the curve between them
-//!   but its ends, and the band takes in all that lies between.
+//!   vanishes at the points. With only two points nothing is known about the curve between them,
+//!   and the band has no ends there.
 //!
 //! The interval of the ratio is the stretch around the crossing on which the target lies within
 //! the band. It misses the true ratio only where the band misses the true curve, so it inherits
@@ -303,7 +303,7 @@ impl Curve {
         let bend = if near.len() > 2 {
             (p - line).abs()
         } else {
-            (right.p - left.p).abs()
+            f64::INFINITY
         };
         Value {
             p,

@@ -45,3 +45,20 @@ pub(super) fn ends_within_a_line(path: &Path) -> Result<bool, RunError> {
     }
     Ok(last != [b'\n'])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_ends_within_a_line_if_its_last_byte_is_no_line_feed() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a");
+        assert!(!ends_within_a_line(&path).unwrap(), "not there");
+        for (text, expected) in [("", false), ("a\n", false), ("a", true), ("a\nb", true)] {
+            std::fs::write(&path, text).unwrap();
+            assert_eq!(ends_within_a_line(&path).unwrap(), expected, "{text:?}");
+        }
+        assert!(ends_within_a_line(dir.path()).is_err());
+    }
+}

@@ -26,10 +26,7 @@ const MOST_CHUNKS_AN_OCTAVE: u64 = 1 << 16;
 
 /// Tosses per chunk of a run that makes `total` tosses.
 fn fixed_size(total: u64, plan: &Plan) -> u64 {
-    let of_at_most = |chunks: u64| {
-        let size = total.div_ceil(chunks).checked_next_power_of_two();
-        size.unwrap_or(1 << 63)
-    };
+    let of_at_most = |chunks: u64| total.div_ceil(chunks).next_power_of_two();
     // a config names one engine
     let first = plan.points.each().next();
     let stepped = first.is_some_and(|point| point.engine.descriptor().stepped);

@@ -159,3 +159,117 @@ fn open(path: &Path) -> io::Result<Option<File>> {
         Err(error) => Err(error),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::finished::Finished;
+    use coinmc_core::Tally;
+    use std::ops::Range;
+    use tempfile::tempdir;
+
+    fn plan() -> Plan {
+        let config = "coin.ratio = [1.0, 2.0]\nsurface = { restitution = 0.5, friction = 0.3 }\n\
+                      launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 1000";
+        crate::config::parse("test", config, &[]).unwrap()
+    }
+
+    fn chunk(point: usize, tosses: Range<u64>) -> Chunk {
+        Chunk { point, tosses }
+    }
+
+    /// So many tosses, of 3 µs each.
+    fn tossed(tosses: u64) -> Tossed {
+        Tossed {
+            tally: Tally {
+                heads: tosses,
+                ..Tally::default()
+            },
+            microseconds: 3 * tosses,
+        }
+    }
+
+    /// What is read of a file of these ranges.
+    fn written(ranges: &[(usize, Range<u64>)]) -> Earlier {
+        let (plan, dir) = (plan(), tempdir().unwrap());
+        let mut writing = Writing::begin(dir.path(), "a hash").unwrap();
+        for (point, tosses) in ranges {
+            let counts = tossed(tosses.end - tosses.start);
+            let chunk = chunk(*point, tosses.clone());
+            writing.add(&chunk, &counts, "a hash").unwrap();
+        }
+        writing.finish().unwrap();
+        assert!(
+            Earlier::read(dir.path(), &plan, "another")
+                .unwrap()
+                .ranges
+                .is_empty()
+        );
+        Earlier::read(dir.path(), &plan, "a hash").unwrap()
+    }
+
+    #[test]
+    fn what_is_written_is_read_in_order_and_once() {
+        let earlier = written(&[(1, 0..50), (0, 100..250), (0, 0..100), (0, 100..250)]);
+        let expected = [(0, 0..100), (0, 100..250), (1, 0..50)];
+        let expected = expected.map(|(point, tosses)| {
+            let counts = tossed(tosses.end - tosses.start);
+            (chunk(point, tosses), counts)
+        });
+        assert!(earlier.all().eq(expected));
+    }
+
+    /// What is not there holds nothing; what cannot be read is an error.
+    #[test]
+    fn a_file_that_cannot_be_read_is_told() {
+        let (plan, dir) = (plan(), tempdir().unwrap());
+        let read = || Earlier::read(dir.path(), &plan, "a hash");
+        assert!(read().unwrap().ranges.is_empty());
+        for name in [Earlier::FILE, Earlier::NEXT] {
+            let place = dir.path().join(name);
+            std::fs::create_dir(&place).unwrap();
+            assert!(matches!(read(), Err(RunError::Io { .. })), "{name}");
+            std::fs::remove_dir(&place).unwrap();
+        }
+    }
+
+    #[test]
+    fn what_the_plan_does_not_toss_is_left_out() {
+        let earlier = written(&[(0, 5..5), (1, 0..50), (2, 0..50)]);
+        assert!(earlier.all().eq([(chunk(1, 0..50), tossed(50))]));
+    }
+
+    #[test]
+    fn a_chunk_is_taken_over_if_all_of_it_is_there() {
+        let earlier = written(&[(0, 100..150), (0, 150..250), (0, 250..300)]);
+        let finished = Finished::default().with_earlier(earlier);
+        assert_eq!(finished.take_over(&chunk(0, 100..250)), Some(tossed(150)));
+        for lacks in [100..249, 100..301, 0..250] {
+            assert_eq!(finished.take_over(&chunk(0, lacks)), None);
+        }
+    }
+
+    /// Ranges that follow on each other make one beginning, up to a gap or to a range that is longer than what is
+    /// left of the chunk.
+    #[test]
+    fn a_chunk_begins_with_the_ranges_that_fit_into_it() {
+        let earlier = written(&[(0, 0..100), (0, 100..250), (0, 300..400), (1, 0..50)]);
+        for (point, tosses, counted) in [
+            (0, 0..1000, 250),
+            (0, 0..250, 250),
+            (0, 0..249, 100),
+            (0, 0..200, 100),
+            (0, 0..99, 0),
+            (0, 100..250, 150),
+            (0, 100..200, 0),
+            (0, 250..1000, 0),
+            (0, 300..1000, 100),
+            (1, 0..1000, 50),
+            (1, 50..1000, 0),
+        ] {
+            let begun = earlier.beginning(&chunk(point, tosses.clone()));
+            let expected = (counted > 0).then(|| tossed(counted));
+            assert_eq!(begun, expected, "{point} {tosses:?}");
+        }
+    }
+}

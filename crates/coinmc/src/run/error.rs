@@ -242,3 +242,20 @@ impl RunError {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_error_is_told_as_itself_and_several_line_by_line() {
+        let one = || RunError::NothingToMerge;
+        assert!(matches!(
+            RunError::all(vec![one()]),
+            RunError::NothingToMerge
+        ));
+        let two = RunError::all(vec![one(), RunError::PartsNeedFixedTosses]);
+        assert!(matches!(&two, RunError::Several(all) if all.len() == 2));
+        assert_eq!(two.to_string().lines().count(), 2);
+    }
+}

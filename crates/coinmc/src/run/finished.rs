@@ -119,3 +119,49 @@ impl Entry {
         (self.point, self.start)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_core::Tally;
+
+    fn tossed(tosses: u64) -> Tossed {
+        Tossed {
+            tally: Tally {
+                heads: tosses,
+                ..Tally::default()
+            },
+            microseconds: 0,
+        }
+    }
+
+    fn chunk(tosses: std::ops::Range<u64>) -> Chunk {
+        Chunk { point: 0, tosses }
+    }
+
+    /// A whole chunk is no beginning, and a forged one may be longer.
+    #[test]
+    fn a_beginning_is_shorter_than_its_chunk() {
+        for (counted, is_taken) in [(1, true), (149, true), (150, false), (1000, false)] {
+            let begun = [((0, 100), (chunk(100..100 + counted), tossed(counted)))];
+            let mut finished = Finished::default().with_beginnings(begun.into());
+            let taken = finished.take_beginning(&chunk(100..250));
+            assert_eq!(taken, is_taken.then(|| tossed(counted)), "{counted}");
+            // once
+            assert_eq!(finished.take_beginning(&chunk(100..250)), None);
+        }
+    }
+
+    #[test]
+    fn what_is_not_taken_is_left() {
+        let result = |tosses| Packed::from(&ChunkResult::Tossed(tossed(tosses)));
+        let all = [(chunk(100..250), result(150)), (chunk(0..100), result(100))];
+        let mut finished = Finished::new(all);
+        assert_eq!((finished.left(), finished.tosses()), (2, 250));
+        assert_eq!(finished.take(0, 7), None);
+        assert_eq!(finished.take(0, 100).map(|taken| taken.tosses()), Some(150));
+        assert_eq!(finished.take(0, 100), None);
+        assert_eq!((finished.left(), finished.tosses()), (1, 100));
+        assert!(finished.rest().eq([(0, 0)]));
+    }
+}

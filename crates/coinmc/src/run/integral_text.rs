@@ -160,6 +160,26 @@ mod tests {
     }
 
     #[test]
+    fn an_exact_result_adds_up_to_one() {
+        let exact = |p| Share { p, lo: p, hi: p };
+        let mut written = Integral {
+            faces: [0.25, 0.5, 0.25].map(exact),
+            evaluations: 1,
+            exact: true,
+            ..example()
+        };
+        let read = |written: &Integral| {
+            let text = encode(7, written, HASH);
+            decode(text.as_bytes(), 7, METHOD, HASH)
+        };
+        assert_eq!(read(&written), Ok(written));
+        for too_much_or_little in [0.249, 0.251] {
+            written.faces[2] = exact(too_much_or_little);
+            assert_eq!(read(&written), Err(Damage::Counts));
+        }
+    }
+
+    #[test]
     fn foreign_files_with_a_valid_checksum_are_rejected() {
         let text = encode(7, &example(), HASH);
         let decode = |text: &str, point, hash| super::decode(text.as_bytes(), point, METHOD, hash);
@@ -181,6 +201,18 @@ mod tests {
                 "side 0.0 0.0 0.0",
                 Damage::Counts,
             ),
+            (
+                "side 0.266 0.26599 0.266013",
+                "side 0.266 0.267 0.268",
+                Damage::Counts,
+            ),
+            (
+                "side 0.266 0.26599 0.266013",
+                "side 0.266 0.265 0.2659",
+                Damage::Counts,
+            ),
+            ("side 0.266 0.26599", "side 0.266 -0.1", Damage::Counts),
+            ("0.26599 0.266013", "0.26599 1.001", Damage::Counts),
             ("side 0.266", "side 0.5", Damage::Counts),
             ("side 0.266", "side NaN", Damage::Counts),
             ("side 0.266", "side 0.2660", Damage::Form),

@@ -123,3 +123,110 @@ pub(super) fn what_is_missing(
         parts: parts.collect(),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::chunk_result::{ChunkResult, Tossed};
+    use crate::run::finished::Finished;
+    use crate::run::packed::Packed;
+    use coinmc_core::Tally;
+    use std::sync::Arc;
+
+    fn missing_of(indices: &[u32], of: u32) -> Missing {
+        let part = |&index: &u32| Part::new(index, of).unwrap();
+        Missing {
+            chunks: vec![],
+            total: 1,
+            parts: indices.iter().map(part).collect(),
+        }
+    }
+
+    #[test]
+    fn parts_are_listed_as_job_arrays_take_them() {
+        for (indices, array) in [
+            (&[][..], ""),
+            (&[3], "3"),
+            (&[3, 4], "3,4"),
+            (&[1, 2, 3], "1-3"),
+            (&[1, 3, 5, 6, 8, 9, 10, 11], "1,3,5,6,8-11"),
+        ] {
+            assert_eq!(missing_of(indices, 20).array(), array);
+        }
+    }
+
+    #[test]
+    fn at_most_twenty_parts_are_named() {
+        let indices: Vec<u32> = (1..=21).collect();
+        let all = missing_of(&indices[..20], 30).names();
+        assert!(all.starts_with("1/30, 2/30, ") && all.ends_with(", 20/30"));
+        assert_eq!(missing_of(&indices, 30).names(), format!("{all}, …"));
+    }
+
+    /// Points of one chunk each.
+    fn plan(points: u32) -> Arc<Plan> {
+        let config = format!(
+            "coin.ratio = {{ from = 1.0, to = 2.0, steps = {points} }}\nlaunch.preset = 'robot'\n\
+             surface = {{ restitution = 0.5, friction = 0.3 }}\nengine.flat = {{}}\nstop.tosses = 100"
+        );
+        Arc::new(crate::config::parse("test", &config, &[]).unwrap())
+    }
+
+    #[test]
+    fn what_is_stored_between_them_parts_missing_chunks() {
+        let config = "coin.ratio = 1\nlaunch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 60_000\n\
+                      surface = { restitution = 0.5, friction = 0.3 }";
+        let plan = Arc::new(crate::config::parse("test", config, &[]).unwrap());
+        let chunk = |tosses| Chunk { point: 0, tosses };
+        let tossed = Tossed {
+            tally: Tally {
+                heads: 16_384,
+                ..Tally::default()
+            },
+            microseconds: 0,
+        };
+        let stored = Packed::from(&ChunkResult::Tossed(tossed));
+        let finished = Finished::new([(chunk(16_384..32_768), stored)]);
+        let mut schedule = Schedule::new(&plan, Part::WHOLE, finished);
+        let missing = what_is_missing(&plan, &mut schedule, &[]).unwrap();
+        assert_eq!(missing.chunks, [chunk(0..16_384), chunk(32_768..60_000)]);
+        assert_eq!(missing.total, 3);
+    }
+
+    #[test]
+    fn at_most_twenty_chunks_are_named() {
+        for (points, more) in [(20, ""), (21, "; …"), (30, "; …")] {
+            let plan = plan(points);
+            let mut schedule = Schedule::new(&plan, Part::WHOLE, Finished::default());
+            let missing = what_is_missing(&plan, &mut schedule, &[]).unwrap();
+            assert_eq!(missing.total, u64::from(points));
+            // one more shows that there are more
+            assert!(missing.chunks.len() <= NAMED + 1, "{points}");
+            let end = format!("; point 19, tosses 0..100{more}");
+            let text = missing.to_string();
+            assert!(text.ends_with(&end), "{text}");
+        }
+    }
+
+    /// Of two points, and none stored.
+    #[test]
+    fn parts_are_named_where_the_directories_agree_how_many_there_are() {
+        let plan = plan(2);
+        let named = |parts: &[(u32, u32)]| {
+            let parts: Vec<Part> = parts
+                .iter()
+                .map(|&(i, of)| Part::new(i, of).unwrap())
+                .collect();
+            let mut schedule = Schedule::new(&plan, Part::WHOLE, Finished::default());
+            let missing = what_is_missing(&plan, &mut schedule, &parts).unwrap();
+            assert_eq!((missing.total, missing.chunks.len()), (2, 2));
+            missing.names()
+        };
+        assert_eq!(named(&[(3, 3)]), "1/3, 2/3");
+        // the whole has all parts
+        assert_eq!(named(&[(3, 3), (1, 1)]), "1/3, 2/3");
+        for none in [&[][..], &[(1, 1)], &[(1, 2), (1, 3)]] {
+            assert_eq!(named(none), "");
+        }
+    }
+}

@@ -28,3 +28,16 @@ pub(super) fn one_per_core(threads: Option<NonZeroUsize>) -> NonZeroUsize {
     let threads = threads.or_else(|| thread::available_parallelism().ok());
     threads.unwrap_or(NonZeroUsize::MIN)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn threads_are_those_asked_for_or_one_per_core() {
+        let three = NonZeroUsize::new(3);
+        assert_eq!(Some(one_per_core(three)), three);
+        let cores = thread::available_parallelism().ok();
+        assert_eq!(one_per_core(None), cores.unwrap_or(NonZeroUsize::MIN));
+    }
+}

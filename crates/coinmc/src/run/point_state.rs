@@ -219,9 +219,12 @@ mod tests {
         assert!((point.seconds_per_toss() - 1e-3).abs() < 1e-15);
         assert_eq!(point.look(), Some(Verdict::More));
         assert!(point.next_tosses() > 2000);
-        // enough for all changes nothing
-        point.limit_seconds(Some(1e9));
-        assert_eq!(point.limited_by, StoppedBy::MaxTosses);
+        // enough for all changes nothing, and so does no more than that
+        let just_enough = (64.5 + point.next_tosses() as f64) * 1e-3;
+        for enough in [1e9, just_enough] {
+            point.limit_seconds(Some(enough));
+            assert_eq!(point.limited_by, StoppedBy::MaxTosses);
+        }
         point.limit_seconds(targets.max_core_seconds);
         assert!(point.next_tosses().abs_diff(1000) <= 1);
         assert_eq!(point.limited_by, StoppedBy::MaxCoreSeconds);

@@ -222,6 +222,19 @@ mod tests {
     }
 
     #[test]
+    fn what_is_not_there_is_removed_and_a_directory_is_not() {
+        let dir = tempfile::tempdir().unwrap();
+        let place = dir.path().join("a");
+        remove(&place).unwrap();
+        fs::write(&place, "mine").unwrap();
+        remove(&place).unwrap();
+        assert!(!place.exists());
+        fs::create_dir(&place).unwrap();
+        let error = remove(&place).unwrap_err();
+        assert!(error.to_string().starts_with("cannot remove"), "{error}");
+    }
+
+    #[test]
     fn the_same_content_is_left_alone() {
         let dir = tempfile::tempdir().unwrap();
         let place = dir.path().join("a");

@@ -464,3 +464,6 @@ fn first_looks(plan: &Plan, targets: Targets, points: u64) -> (Looks, StoppedBy)
         _ => (Looks::new(targets, plan.confidence), StoppedBy::MaxTosses),
     }
 }
+
+#[cfg(test)]
+mod tests;

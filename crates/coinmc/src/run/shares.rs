@@ -138,5 +138,17 @@ mod tests {
         assert_eq!(by_tosses.by, Some(StoppedBy::TotalTosses));
         assert_eq!(of(20_513.0, 30.0).by, Some(StoppedBy::TotalCoreSeconds));
         assert_eq!(of(1e9, -1.0).tosses, [0, 0]);
+        // and where both are as scarce, the tosses: powers of two, for which all of this is exact
+        for need in &mut needs {
+            need.seconds = 1.0 / 1024.0;
+        }
+        let both = shares(
+            &needs,
+            Left {
+                tosses: 20_480.0,
+                seconds: 20.0,
+            },
+        );
+        assert_eq!(both.by, Some(StoppedBy::TotalTosses));
     }
 }

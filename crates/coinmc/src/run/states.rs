@@ -100,3 +100,37 @@ impl States {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::StoppedBy;
+
+    fn states() -> States {
+        States::new(2, PointState::new(None, StoppedBy::Tosses))
+    }
+
+    #[test]
+    fn the_widest_arm_is_that_of_any_point() {
+        let mut states = states();
+        assert_eq!(states.widest(), None);
+        for (point, arm, widest) in [(0, 0.3, 0.3), (1, 0.2, 0.3), (0, 0.1, 0.2)] {
+            states.set_arm(point, arm);
+            assert_eq!(states.widest(), Some(widest));
+        }
+        states.end(1);
+        assert_eq!(states.widest(), Some(0.2));
+        states.end(0);
+        assert_eq!(states.widest(), Some(0.2));
+    }
+
+    #[test]
+    #[should_panic(expected = "point 1 has ended")]
+    fn a_point_that_has_ended_is_not_opened_again() {
+        let mut states = states();
+        states.open(1).stopped_by = StoppedBy::Tosses;
+        states.end(1);
+        assert_eq!(states.counted(1).stopped_by, StoppedBy::Tosses);
+        states.open(1);
+    }
+}

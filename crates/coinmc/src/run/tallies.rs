@@ -279,3 +279,24 @@ fn chunk_at(plan: &Plan, cut: &Cut, point: usize, start: u64) -> Option<Chunk> {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_is_too_long_only_if_it_is_longer_than_the_longest() {
+        let config = "coin.ratio = 1\nsurface = { restitution = 0.5, friction = 0.3 }\n\
+                      launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 1000";
+        let plan = crate::config::parse("test", config, &[]).unwrap();
+        let tallies = Tallies::of(Path::new(""), plan.hash());
+        for (bytes, damage) in [
+            (MAX_BYTES, Damage::Checksum),
+            (MAX_BYTES + 1, Damage::TooLong),
+            (10 * MAX_BYTES, Damage::TooLong),
+        ] {
+            let read = tallies.read(&vec![b'x'; bytes], &plan, &Cut::new(&plan));
+            assert_eq!(read.unwrap_err(), damage, "{bytes}");
+        }
+    }
+}

@@ -152,6 +152,19 @@ mod tests {
         }
     }
 
+    #[test]
+    fn only_a_time_that_was_measured_is_written() {
+        let (chunk, tally) = example();
+        let has_time = |microseconds| {
+            let tossed = Tossed {
+                tally,
+                microseconds,
+            };
+            encode(&chunk, &tossed, HASH).contains(TIME)
+        };
+        assert!(!has_time(0) && has_time(1));
+    }
+
     fn example() -> (Chunk, Tally) {
         let chunk = Chunk {
             point: 3,

@@ -110,3 +110,79 @@ pub(super) fn read(dir: &Path, tallies: &Tallies, plan: &Plan) -> Result<Beginni
     }
     Ok(beginnings)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_core::Tally;
+    use tempfile::tempdir;
+
+    fn plan() -> Plan {
+        let config = "coin.ratio = [1.0, 2.0]\nsurface = { restitution = 0.5, friction = 0.3 }\n\
+                      launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 1000";
+        crate::config::parse("test", config, &[]).unwrap()
+    }
+
+    /// The first tosses of a point.
+    fn begun(point: usize, counted: u64) -> (Chunk, Tossed) {
+        let chunk = Chunk {
+            point,
+            tosses: 0..counted,
+        };
+        let tally = Tally {
+            heads: counted,
+            ..Tally::default()
+        };
+        let microseconds = 0;
+        (
+            chunk,
+            Tossed {
+                tally,
+                microseconds,
+            },
+        )
+    }
+
+    #[test]
+    fn the_file_holds_the_beginnings_of_chunks_that_are_not_finished() {
+        let (plan, dir) = (plan(), tempdir().unwrap());
+        let tallies = Tallies::of(dir.path(), plan.hash());
+        let unfinished = Unfinished::open(dir.path(), &tallies, &plan).unwrap();
+        let update = |begun: &[(Chunk, Tossed)], finished: &[&Chunk]| {
+            let begun = begun.iter().map(|(chunk, tossed)| (chunk, *tossed));
+            unfinished
+                .update(&tallies, begun, finished.iter().copied())
+                .unwrap();
+        };
+        let stored = || -> Vec<_> {
+            let read = read(dir.path(), &tallies, &plan).unwrap();
+            read.into_values().collect()
+        };
+        assert_eq!(stored(), []);
+        let ([one, more], other) = ([100, 200].map(|counted| begun(0, counted)), begun(1, 300));
+        update(&[one, other.clone()], &[]);
+        // of a chunk the last
+        update(std::slice::from_ref(&more), &[]);
+        assert_eq!(stored(), [more.clone(), other.clone()]);
+        assert!(unfinished.begun().into_values().eq(stored()));
+        // the file is gone with the last of them
+        update(&[], &[&more.0]);
+        assert!(!unfinished.begun().contains_key(&(0, 0)));
+        // for which it is not written
+        assert_eq!(stored(), [more, other.clone()]);
+        update(&[], &[&other.0]);
+        assert!(!dir.path().join(Unfinished::FILE).exists());
+        update(&[other], &[]);
+        unfinished.clear().unwrap();
+        assert!(unfinished.begun().is_empty() && stored().is_empty());
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_read_is_told() {
+        let (plan, dir) = (plan(), tempdir().unwrap());
+        std::fs::create_dir(dir.path().join(Unfinished::FILE)).unwrap();
+        let tallies = Tallies::of(dir.path(), plan.hash());
+        let read = read(dir.path(), &tallies, &plan);
+        assert!(matches!(read, Err(RunError::Io { .. })), "{read:?}");
+    }
+}

@@ -247,3 +247,99 @@ fn store_results(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::Part;
+    use crate::run::finished::Finished;
+    use std::sync::Arc;
+
+    fn plan(stop: &str) -> Arc<Plan> {
+        let config = format!(
+            "coin.ratio = 1\nsurface = {{ restitution = 0.5, friction = 0.3 }}\n\
+             launch.preset = 'robot'\nengine.flat = {{}}\n[stop]\n{stop}"
+        );
+        Arc::new(crate::config::parse("test", &config, &[]).unwrap())
+    }
+
+    /// The time of a point is that of all stretches of all its chunks.
+    #[test]
+    fn computing_time_is_measured_where_it_is_limited() {
+        for (limit, is_limited) in [("", false), ("max_core_seconds = 1e6", true)] {
+            let plan = plan(&format!("half_width = 0.1\nmax_tosses = 1000\n{limit}"));
+            let schedule = Schedule::new(&plan, Part::WHOLE, Finished::default());
+            let times = Mutex::new(Vec::new());
+            let store = |batch: &[Work]| {
+                for work in batch {
+                    if let Work::Finished(Made {
+                        result: ChunkResult::Tossed(tossed),
+                        ..
+                    }) = work
+                    {
+                        times.lock().unwrap().push(tossed.microseconds);
+                    }
+                }
+                Ok(())
+            };
+            let (one, cancel) = (NonZeroUsize::MIN, AtomicBool::new(false));
+            execute(&plan, schedule, &store, one, &cancel, &()).unwrap();
+            let times = times.into_inner().unwrap();
+            // a thousand tosses take longer than a microsecond
+            assert!(!times.is_empty());
+            assert_eq!(times.iter().sum::<u64>() > 0, is_limited, "{times:?}");
+        }
+    }
+
+    /// What is counted of a chunk is reported when the worker is to stop, and nothing if nothing is.
+    #[test]
+    fn a_worker_that_is_stopped_reports_what_it_has() {
+        let plan = plan("tosses = 1000");
+        let schedule = Schedule::new(&plan, Part::WHOLE, Finished::default());
+        let shared = Shared {
+            plan: &plan,
+            schedule: Mutex::new(schedule),
+            changed: Condvar::new(),
+            cancel: &AtomicBool::new(true),
+            broken: AtomicBool::new(false),
+        };
+        let chunk = |tosses| Chunk { point: 0, tosses };
+        let mut begun = Tossed::none();
+        begun.tally.heads = 40;
+        for (begun, expected) in [(None, None), (Some(begun), Some((chunk(0..40), begun)))] {
+            let job = Job {
+                chunk: chunk(0..1000),
+                begun: begun.map(Box::new),
+            };
+            let reported = std::cell::RefCell::new(Vec::new());
+            let report = |work| {
+                let Work::Begun(chunk, tossed) = work else {
+                    panic!("a chunk that is not finished")
+                };
+                reported.borrow_mut().push((chunk, tossed));
+                true
+            };
+            let goes_on = toss(&shared, job, &mut Pace::new(Instant::now()), report);
+            assert!(!goes_on.unwrap());
+            assert!(reported.into_inner().into_iter().eq(expected));
+        }
+    }
+
+    #[test]
+    fn a_thread_that_panics_stops_the_others() {
+        for panics in [false, true] {
+            let broken = AtomicBool::new(false);
+            let ended = thread::scope(|scope| {
+                let worker = scope.spawn(|| {
+                    let _stop_on_panic = StopOnPanic(&broken);
+                    // silent, as no message is asked for
+                    if panics {
+                        std::panic::resume_unwind(Box::new(()));
+                    }
+                });
+                worker.join()
+            });
+            assert_eq!((ended.is_err(), broken.load(Relaxed)), (panics, panics));
+        }
+    }
+}

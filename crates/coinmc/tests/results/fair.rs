@@ -349,3 +349,32 @@ fn an_even_number_of_crossings_in_one_band_is_told_by_its_first_and_last() {
     assert!(found[0].rising && !found[1].rising && found[0].ratio < found[1].ratio);
     assert_eq!((found[0].lo, found[0].hi), (found[1].lo, found[1].hi));
 }
+
+/// Points whose intervals just hold the target, with nothing between the two of them that does: the errors of two
+/// points partly cancel there.
+#[test]
+fn a_band_may_let_go_of_the_target_between_points_that_hold_it() {
+    let arm = 0.01;
+    let found = crossings(0.1, arm, |x| {
+        THIRD + if x < 1.55 { -0.95 * arm } else { 0.95 * arm }
+    });
+    let [fair] = &found[..] else {
+        panic!("{found:?}")
+    };
+    assert!((fair.ratio - 1.55).abs() < 1e-9);
+    // Right of 1.6 the curve lies above the straight line, and the band below reaches as far below that as the
+    // arms do: from two points of arm 1 at the share t between them, and two further ones.
+    for away in [fair.ratio - fair.lo.unwrap(), fair.hi.unwrap() - fair.ratio] {
+        let t = away / 0.1 - 0.5;
+        let weights = [
+            -t * (1.0 - t) * (2.0 - t) / 6.0,
+            (1.0 - t * t) * (2.0 - t) / 2.0,
+            t * (1.0 + t) * (2.0 - t) / 2.0,
+            -t * (1.0 - t * t) / 6.0,
+        ];
+        let reach = weights.iter().map(|w| w * w).sum::<f64>().sqrt();
+        assert!((reach - 0.95).abs() < 1e-9, "{away}: {reach}");
+        // the first of two such places
+        assert!(t < 0.5, "{t}");
+    }
+}

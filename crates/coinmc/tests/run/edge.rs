@@ -2,6 +2,8 @@
 
 use crate::support::{contents, run_whole};
 use coinmc::config;
+use coinmc::run::{FinishedToss, TossSource, for_each_end, stream};
+use coinmc_core::{Engine, Event, EventKind, Observer, State};
 use tempfile::tempdir;
 
 /// Coins that are thrown flat from 0.5 m at 0 to 1 m/s and stick where they land.
@@ -52,4 +54,36 @@ fn nothing_leaves_an_endless_table() {
         .find(|(name, _)| name.contains("tallies"))
         .expect("a tally");
     assert!(!String::from_utf8_lossy(tally.1).contains("left"));
+}
+
+/// At rest where it sticks, or at the edge: not as it last touched the table.
+#[test]
+fn the_end_of_a_toss_is_where_its_engine_ends_it() {
+    /// States at the end, and before.
+    #[derive(Default)]
+    struct States(Vec<State>, Vec<State>);
+    impl Observer for States {
+        fn event(&mut self, event: &Event) {
+            let of = match event.kind {
+                EventKind::Ended => &mut self.0,
+                _ => &mut self.1,
+            };
+            of.push(event.state);
+        }
+    }
+    let text = THROWN.replace("[launch]", "table_radius_m = 0.2\n[launch]");
+    let plan = config::parse("inline", &text, &[]).expect("a plan");
+    let (point, stream) = (&plan.points[0], stream(&plan, 0));
+    let engine = point.build_engine().unwrap().unwrap();
+    let source = TossSource::Drawn(&stream);
+    let mut differ = 0;
+    let mut visit = |toss: &FinishedToss| {
+        let mut seen = States::default();
+        engine.toss(&mut (), &source.launch(point, toss.toss), &mut seen);
+        assert_eq!(seen.0, [toss.end]);
+        differ += u32::from(seen.1.last() != Some(&toss.end));
+        true
+    };
+    assert!(for_each_end(point, source, 0..20, &mut visit).unwrap());
+    assert!(differ > 0);
 }

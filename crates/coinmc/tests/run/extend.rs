@@ -147,7 +147,7 @@ fn a_part_does_not_go_on_with_another_plan() {
 fn an_extended_run_that_is_stopped_has_the_old_result() {
     let dir = tempdir().unwrap();
     let (one, at_once) = (dir.path().join("one"), dir.path().join("at_once"));
-    let [less, more] = ["tosses = 40_000", "tosses = 90_000"].map(plan);
+    let [less, more] = ["tosses = 40_000", "tosses = 190_000"].map(plan);
     run_whole(&less, &one);
     let table = fs::read(one.join("results.csv")).unwrap();
     for cancel_at in [0, 1, 3] {
@@ -172,7 +172,7 @@ fn an_extended_run_that_is_stopped_has_the_old_result() {
         );
     }
     // even more, from the middle
-    let most = plan("tosses = 100_000");
+    let most = plan("tosses = 200_000");
     let (_, reused) = go_on(&most, &one);
     assert!(reused >= 6 * 40_000);
     run_whole(&most, &at_once);

@@ -1,7 +1,7 @@
 //! Counting in memory, reading back and individual tosses give the same counts as a run.
 
 use crate::support::{
-    Ear, FIXED, HALF_WIDTH, contents, plan, plan_in_space, plan_of, put_tallies, run_whole,
+    Ear, FIXED, HALF_WIDTH, LONG, contents, plan, plan_in_space, plan_of, put_tallies, run_whole,
     run_with, tallies,
 };
 use coinmc::plan::Plan;
@@ -49,7 +49,7 @@ fn a_cancelled_count_reports_its_counts() {
 
 #[test]
 fn a_directory_is_read_back_finished_or_not_and_not_touched() {
-    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    let (plan, dir) = (plan(LONG), tempdir().unwrap());
     let ear = Ear::that_cancels_at(2);
     let cut = run_with(&plan, dir.path(), Part::WHOLE, 2, &ear).unwrap();
     let before = contents(dir.path());

@@ -12,5 +12,6 @@ mod merge;
 mod provenance;
 mod resume;
 mod same_side;
+mod small;
 mod stopping;
 mod support;

@@ -1,7 +1,7 @@
 //! Parts and their merge.
 
 use crate::support::{
-    Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, put_tallies, resealed, run_whole,
+    Ear, FIXED, HALF_WIDTH, LONG, assert_same, contents, plan, put_tallies, resealed, run_whole,
     run_with, tallies,
 };
 use coinmc::run::{Chunk, Part, RunError, Status, merge, merge_what_is_there, stored_report};
@@ -111,7 +111,7 @@ fn missing_chunks_are_named_and_nothing_is_written() {
 fn neighbouring_missing_chunks_are_named_together() {
     let dir = tempdir().unwrap();
     let out = dir.path().join("run");
-    run_with(&plan(FIXED), &out, Part::WHOLE, 1, &Ear::that_cancels_at(1)).unwrap();
+    run_with(&plan(LONG), &out, Part::WHOLE, 1, &Ear::that_cancels_at(1)).unwrap();
     let error = merge(&[out], &dir.path().join("merged"), &()).unwrap_err();
     let RunError::Missing(missing) = &error else {
         panic!("{error}")
@@ -121,7 +121,7 @@ fn neighbouring_missing_chunks_are_named_together() {
         missing.chunks.last(),
         Some(&Chunk {
             point: 5,
-            tosses: 0..40_000
+            tosses: 0..200_000
         })
     );
     // all are named

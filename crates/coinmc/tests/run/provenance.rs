@@ -1,8 +1,8 @@
 //! Who made the chunks of a run is told, and does not enter what is counted.
 
 use crate::support::{
-    Ear, FIXED, HALF_WIDTH, assert_same, plan, put_tallies, run_as_build, run_whole, run_with,
-    tallies,
+    Ear, FIXED, HALF_WIDTH, LONG, assert_same, plan, put_tallies, run_as_build, run_whole,
+    run_with, tallies,
 };
 use coinmc::plan::Plan;
 use coinmc::run::{Contribution, Part, Provenance, RunError, merge, provenance, stored_report};
@@ -30,7 +30,7 @@ fn sum(provenance: &Provenance, of: impl Fn(&Contribution) -> u64) -> u64 {
 
 #[test]
 fn every_chunk_of_a_run_has_a_maker_whoever_went_on_with_it() {
-    for stop in [FIXED, HALF_WIDTH] {
+    for stop in [LONG, HALF_WIDTH] {
         let (plan, dir) = (plan(stop), tempdir().unwrap());
         let run_by =
             |build, ear: &Ear| run_as_build(build, &plan, dir.path(), Part::WHOLE, 2, ear).unwrap();
@@ -163,7 +163,7 @@ fn damage_to_the_record_costs_the_record_and_no_count() {
 #[cfg(unix)]
 #[test]
 fn a_record_that_is_a_link_is_not_written_to() {
-    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    let (plan, dir) = (plan(LONG), tempdir().unwrap());
     let precious = dir.path().join("precious");
     fs::write(&precious, "kept").unwrap();
     let run = dir.path().join("run");

@@ -1,8 +1,8 @@
 //! Counts depend only on the plan: not on threads, interruptions or kills.
 
 use crate::support::{
-    Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, plan_in_space, run_as_build, run_whole,
-    run_with,
+    Ear, FIXED, HALF_WIDTH, LONG, assert_same, contents, plan, plan_in_space, run_as_build,
+    run_whole, run_with,
 };
 use coinmc::plan::StoppedBy;
 use coinmc::results::Row;
@@ -42,7 +42,7 @@ fn a_run_equals_the_sum_of_its_chunks() {
 
 #[test]
 fn interruptions_change_nothing() {
-    for stop in [FIXED, HALF_WIDTH] {
+    for stop in [LONG, HALF_WIDTH] {
         let (plan, dir) = (plan(stop), tempdir().unwrap());
         let (whole, broken) = (dir.path().join("whole"), dir.path().join("broken"));
         run_whole(&plan, &whole);
@@ -70,7 +70,7 @@ fn interruptions_change_nothing() {
 #[test]
 fn a_chunk_goes_on_where_it_was_stopped() {
     let text = "seed = 3\ncoin.ratio = 0.2\nsurface.material = 'wood'\nlaunch.preset = 'hand'\n\
-                engine.volumetric = {}\nstop.tosses = 16_384";
+                engine.volumetric = {}\nstop.tosses = 8192";
     let plan = coinmc::config::parse("test", text, &[]).unwrap();
     let dir = tempdir().unwrap();
     let (whole, broken) = (dir.path().join("whole"), dir.path().join("broken"));
@@ -80,7 +80,7 @@ fn a_chunk_goes_on_where_it_was_stopped() {
     let report = run_with(&plan, &broken, Part::WHOLE, 1, &ear).unwrap();
     assert_eq!(report.status, Status::Interrupted);
     let kept = report.tosses;
-    assert!(0 < kept && kept < 16_384, "{kept}");
+    assert!(0 < kept && kept < 8192, "{kept}");
     assert_eq!(report.results.rows[0].tally.tosses(), kept);
     let (_, stored) = stored_report(&broken, &Ear::default()).unwrap();
     assert_eq!(stored.tosses, kept);
@@ -310,7 +310,7 @@ fn kills_at_any_instant_change_nothing() {
 
 #[test]
 fn another_build_resumes_a_run_with_a_warning() {
-    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    let (plan, dir) = (plan(LONG), tempdir().unwrap());
     let (whole, mixed) = (dir.path().join("whole"), dir.path().join("mixed"));
     run_whole(&plan, &whole);
     let run_by = |build: &str, ear: &Ear| {

@@ -11,6 +11,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::SeqCst};
 
 /// Two restitutions, three ratios, 40 000 tosses a point: 18 chunks.
 pub(crate) const FIXED: &str = "tosses = 40_000";
+/// For a run that is cancelled once its first chunk is stored: a second and more, as a busy disk takes a tenth of one.
+pub(crate) const LONG: &str = "tosses = 200_000";
 /// Up to 8 looks; the flat engine's P(side) is known to ± 0.004 after some 100 000 tosses.
 pub(crate) const HALF_WIDTH: &str = "half_width = 0.006\nmax_tosses = 1_000_000";
 

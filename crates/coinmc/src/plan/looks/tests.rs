@@ -232,9 +232,29 @@ fn the_number_of_tosses_without_excess_is_found() {
     }
     assert!(Looks::solve(0.5, |_| 1.1).is_infinite());
     // as many as a point may make, and no more
-    let (most, beyond) = (0.99 * MOST, 1.01 * MOST);
-    assert!((Looks::solve(0.5, |n| most / n) / most - 1.0).abs() < 2e-6);
+    let beyond = 1.01 * MOST;
+    for power in [1, 2] {
+        let found = Looks::solve(0.5, |n| (MOST / n).powi(power));
+        assert!((found / MOST - 1.0).abs() < 2e-6, "{power}: {found}");
+    }
     assert!(Looks::solve(0.5, |n| beyond / n).is_infinite());
+}
+
+/// A face that was never seen may have any probability, so nothing says that it takes many tosses.
+#[test]
+fn the_search_begins_at_the_fewest_tosses_where_a_face_was_never_seen() {
+    for power in [1, 2] {
+        let found = Looks::solve(0.0, |n| (50.0 / n).powi(power));
+        // 24 halvings of ln(50/32) leave 2.7e-8; of ln(MOST/50), as from the most tosses, 2e-6
+        assert!((found / 50.0 - 1.0).abs() < 1e-7, "{power}: {found}");
+    }
+}
+
+/// Even if fewer would do: the excess that led there is not of the kind that the search is for.
+#[test]
+fn a_search_that_goes_beyond_what_a_point_may_make_finds_no_number() {
+    let excess = |n: f64| if n < 1e10 { 1e30 } else { 0.5 };
+    assert!(Looks::solve(0.5, excess).is_infinite());
 }
 
 /// Both ends of Wilson's interval are a toss farther out.
@@ -417,6 +437,21 @@ fn a_stage_that_is_cut_short_is_the_last_with_all_that_is_left_of_the_confidence
     assert_eq!(looks.stage(), 2048..2048);
 }
 
+/// No look was before, so that there is none to be final: all of α is left.
+#[test]
+fn a_first_stage_without_tosses_has_all_of_the_confidence() {
+    let targets = Targets {
+        half_width: Some(1e-9),
+        ..NONE
+    };
+    let mut looks = Looks::new(targets, 0.95);
+    looks.pilot = Some(1024);
+    looks.stage = 1024..2048;
+    looks.end_after(0);
+    assert_eq!((looks.stage(), looks.counted()), (1024..1024, 0));
+    assert!((looks.confidence() - 0.95).abs() < 1e-12);
+}
+
 /// All points of a run share its limit, so a pilot must not take more than its part of that.
 #[test]
 fn a_pilot_is_at_most_an_eighth_and_a_bit_of_what_may_be_tossed() {
@@ -441,4 +476,41 @@ fn a_pilot_is_at_most_an_eighth_and_a_bit_of_what_may_be_tossed() {
     // where a pilot does not pay, the limit is one of all tosses
     assert_eq!(pilot(4095, None), (0, 4095));
     assert_eq!(pilot(4096, None).1, NONE.max_tosses);
+}
+
+/// A pilot doubles for the last time at an eighth of what may be tossed, however much a longer one would save.
+#[test]
+fn a_pilot_of_a_rare_face_leaves_most_tosses_to_be_counted() {
+    let targets = Targets {
+        relative_error: Some(0.3),
+        ..NONE
+    };
+    let limited = Targets {
+        max_tosses: 1 << 16,
+        ..targets
+    };
+    let pilot = |targets| follow(targets, 0.4995, 1e-3).0.pilot();
+    assert!(pilot(targets) > limited.max_tosses / 4);
+    assert_eq!(pilot(limited), limited.max_tosses / 4);
+}
+
+/// With the least limit that has one, too.
+#[test]
+fn a_forecast_has_the_pilot_that_the_looks_have() {
+    for max_tosses in [4095, 4096] {
+        let targets = Targets {
+            half_width: Some(0.1),
+            max_tosses,
+            ..NONE
+        };
+        let looks = Looks::new(targets, 0.95);
+        let alone = if looks.is_pilot() { looks.pilot() } else { 0 };
+        let forecast = looks.forecast(&mean(64, 0.3, 0.4));
+        let counted = (forecast - alone) as f64;
+        // as above
+        assert!(
+            (1.0..1.35).contains(&(counted / fixed(0.4, 0.1))),
+            "{max_tosses}: {forecast}"
+        );
+    }
 }
