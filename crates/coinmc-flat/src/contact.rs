@@ -254,3 +254,113 @@ impl ContactParameters {
         ContactEnd::NextCorner
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::FlatEngine;
+    use crate::laws::moreau::Moreau;
+    use crate::settings::Settings;
+    use coinmc_testkit::scene;
+
+    fn contact(mu: f64) -> ContactParameters {
+        let scene = scene(1.0, 0.0, mu);
+        let engine = FlatEngine::new(&scene, &Settings::default(), Moreau).expect("valid");
+        engine.parameters.contact
+    }
+
+    fn turning(delta: f64, omega: f64) -> Motion {
+        let (sin, cos) = sin_cos(delta);
+        let mut motion = Motion {
+            quadrant: 0,
+            delta,
+            omega,
+            x: 0.0,
+            z: cos,
+            vx: 0.0,
+            vz: 0.0,
+            time: 0.0,
+        };
+        motion.set_on_corner(sin, cos, omega, 0.0);
+        motion
+    }
+
+    /// A coin at rest that leans on its corner pulls with s c/(1 + k) and presses with 1 − s²/(1 + k).
+    #[test]
+    fn a_leaning_coin_sticks_if_friction_suffices() {
+        let delta = 0.4;
+        let (sin, cos) = sin_cos(delta);
+        let k = contact(0.1).shape.k;
+        let needed = sin * cos / (1.0 + k - sin * sin);
+        for sign in [1.0, -1.0] {
+            let motion = turning(sign * delta, 0.0);
+            assert!(contact(1.001 * needed).can_stick(&motion, false));
+            assert!(!contact(0.999 * needed).can_stick(&motion, false));
+            // held where it has stalled
+            assert!(contact(0.999 * needed).can_stick(&motion, true));
+        }
+        // nothing holds a corner that leaves
+        assert!(!contact(10.0).can_stick(&turning(delta, 2.0), true));
+    }
+
+    /// A corner at rest opens where its own turning lifts it, ω² cos δ >= 1; else friction pulls a leaning
+    /// coin's corner back from the side to which the centre leans, and without it the corner slides off there.
+    #[test]
+    fn a_corner_at_rest_slides_away_from_the_lean_or_opens() {
+        let contact = contact(0.01);
+        let (_, cos) = sin_cos(0.4);
+        for sign in [1.0, -1.0] {
+            let away = contact.slip_direction(&turning(sign * 0.4, 0.0));
+            assert_eq!(away, Some(-sign));
+            let critical = 1.0 / cos.sqrt();
+            let slower = turning(sign * 0.4, 0.999 * critical);
+            assert!(contact.slip_direction(&slower).is_some());
+            let faster = turning(sign * 0.4, 1.001 * critical);
+            assert_eq!(contact.slip_direction(&faster), None);
+        }
+    }
+
+    /// An impulse at the corner leaves the angular momentum about it, and stops it.
+    #[test]
+    fn a_jammed_corner_stops_and_keeps_its_angular_momentum() {
+        let contact = contact(3.0);
+        let k = contact.shape.k;
+        for (delta, slip) in [(0.3, -0.7), (-0.5, 0.4), (0.6, 1.3)] {
+            let (sin, cos) = sin_cos(delta);
+            let mut motion = turning(delta, -0.2);
+            motion.set_on_corner(sin, cos, -0.2, slip);
+            let momentum = |m: &Motion| k * m.omega + cos * m.vx - sin * m.vz;
+            let before = momentum(&motion);
+            contact.stop_jammed(&mut motion, slip);
+            assert!((momentum(&motion) - before).abs() < 1e-14);
+            assert!((motion.vx - motion.omega * cos).abs() < 1e-15);
+            assert!((motion.vz + motion.omega * sin).abs() < 1e-15);
+        }
+    }
+
+    /// What is left of the steps bounds a sliding phase.
+    #[test]
+    fn sliding_gives_up_after_the_steps_that_are_left() {
+        let contact = ContactParameters {
+            max_steps: 7,
+            tolerance: 1e-12,
+            dead: DeadContact::NONE,
+            ..contact(0.3)
+        };
+        let counters = Counters {
+            contact_steps: 5,
+            ..Counters::default()
+        };
+        // far from every event for many steps
+        let mut motion = turning(-0.4, 0.9);
+        let (sin, cos) = sin_cos(motion.delta);
+        motion.set_on_corner(sin, cos, 0.9, 50.0);
+        let mut sliding = contact.slide(&motion, &counters, ContactState::new(50.0));
+        let scene = scene(1.0, 0.0, 0.3);
+        let engine = FlatEngine::new(&scene, &Settings::default(), Moreau).expect("valid");
+        let mut unobserved = ();
+        let mut adapter = engine.parameters.adapter(&mut unobserved);
+        let end = sliding.phase.run(&mut motion, &mut adapter);
+        assert_eq!((end, sliding.phase.steps), (SlideEnd::OutOfSteps, 2));
+    }
+}

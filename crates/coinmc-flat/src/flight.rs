@@ -282,3 +282,44 @@ fn departure<L: Lane>(delta: L, omega: L, cos: L, rate: L, bound: L) -> L {
     }
     longest
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_testkit::scene;
+
+    /// A flight that is no number never touches: it ends when its evaluations are used up.
+    #[test]
+    fn a_flight_that_finds_no_contact_is_given_up() {
+        let shape = Shape::new(&scene(1.0, 0.5, 0.3).coin);
+        let mut motion = Motion {
+            quadrant: 0,
+            delta: -0.2,
+            omega: 0.1,
+            x: 0.0,
+            z: f64::NAN,
+            vx: 0.0,
+            vz: 0.0,
+            time: 0.0,
+        };
+        assert!(!fly_to_contact(&mut motion, &shape, false));
+    }
+
+    /// A corner that lifts off has f'' = 0 up to rounding, on either side: while the coin turns towards its balance
+    /// it stays clear as far as the mirror image of its angle.
+    #[test]
+    fn a_corner_that_lifts_off_stays_clear_up_to_the_mirrored_angle() {
+        let (delta, cos) = (-0.3, libm::cos(0.3));
+        for rounding in [-1e-13, 1e-13] {
+            for sign in [1.0, -1.0] {
+                let omega = ((1.0 + rounding) / cos).sqrt();
+                let bound = 1.0 - omega * omega * 0.5;
+                let step = departure(sign * delta, sign * omega, cos, 0.0, bound);
+                assert_eq!(step, 0.6 / omega);
+            }
+        }
+        // one that would fall in again has no such bound
+        let omega = (0.99_f64 / cos).sqrt();
+        assert_eq!(departure(delta, omega, cos, 0.0, 0.5), 0.0);
+    }
+}

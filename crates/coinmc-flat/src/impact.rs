@@ -218,11 +218,10 @@ impl<L: ImpactLaw> Parameters<L> {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::engine::FlatEngine;
     use crate::laws::moreau::Moreau;
-    use crate::motion::Motion;
     use crate::settings::Settings;
-    use crate::touching::Touching;
     use coinmc_testkit::scene;
 
     /// A corner under the centre of a frictionless coin that turns at ω falls with 1 − ω² between its
@@ -272,6 +271,93 @@ mod tests {
             let longest = allowed / time(1.0);
             assert!(replaced(0.999 * longest), "H/R {ratio}, e {e}, ω {omega}");
             assert!(!replaced(1.001 * longest), "H/R {ratio}, e {e}, ω {omega}");
+        }
+    }
+
+    fn parameters(ratio: f64, e: f64, mu: f64) -> Parameters<Moreau> {
+        let engine = FlatEngine::new(&scene(ratio, e, mu), &Settings::default(), Moreau);
+        engine.expect("valid").parameters
+    }
+
+    /// A coin that rocks a little on its face.
+    fn rocking(parameters: &Parameters<Moreau>, gap: f64, omega: f64, vz: f64) -> Motion {
+        Motion {
+            quadrant: 0,
+            delta: gap - parameters.shape.first_span(0),
+            omega,
+            x: 0.0,
+            z: parameters.shape.base(0, false).0,
+            vx: 0.3,
+            vz,
+            time: 0.0,
+        }
+    }
+
+    /// Bounces at a speed v that lose the share 1 - e each time take 2 e v/(1 - e) at least, and more of zeno is not
+    /// replaced.
+    #[test]
+    fn long_bounces_go_on_however_the_coin_turns() {
+        for e in [0.2, 0.5, 0.9] {
+            let parameters = parameters(1.0, e, 0.0);
+            let longest = parameters.settings.zeno * (1.0 - e) / (2.0 * e);
+            let bouncing = |approach: f64| {
+                let mut motion = rocking(&parameters, 0.1, 0.0, -approach);
+                motion.delta = 0.0;
+                parameters.keeps_bouncing(&Touching::of(&motion))
+            };
+            assert!(bouncing(1.001 * longest) && !bouncing(0.999 * longest));
+        }
+    }
+
+    /// Where the energy is capped, the slip is that of the slower coin.
+    #[test]
+    fn a_stopped_corner_has_the_slip_of_its_coin() {
+        let parameters = parameters(1.0, 0.5, 0.1);
+        let mut motion = rocking(&parameters, 0.6, 0.7, -0.4);
+        let touching = Touching::of(&motion);
+        motion.z = touching.cos;
+        let before = touching.cos + 0.02;
+        let slip = parameters.stop_normal_motion(&mut motion, before);
+        assert!(slip != 0.0 && (slip - (motion.vx - motion.omega * touching.cos)).abs() < 1e-15);
+        assert!((motion.vz + motion.omega * touching.sin).abs() < 1e-15);
+        assert!((motion.energy(parameters.shape.k) - before).abs() < 1e-15);
+    }
+
+    /// Gap, angular and vertical velocity are each below zeno/10 of the edge.
+    #[test]
+    fn only_a_coin_that_hardly_rocks_is_nearly_flat() {
+        let parameters = parameters(1.0, 0.5, 0.3);
+        let most = 0.1 * parameters.settings.zeno;
+        let small = most * parameters.shape.base(0, false).1;
+        let flat = |gap: f64, omega: f64, vz: f64| {
+            parameters.is_nearly_flat(&rocking(&parameters, gap, omega, vz))
+        };
+        let (below, above) = (0.99 * small, 1.01 * small);
+        for sign in [1.0, -1.0] {
+            assert!(flat(below, sign * below, sign * below));
+            assert!(!flat(above, 0.0, 0.0));
+            assert!(!flat(0.0, sign * above, 0.0));
+            assert!(!flat(0.0, 0.0, sign * above));
+            // no coin this fast is looked at any closer
+            assert!(parameters.may_be_nearly_flat(sign * 0.99 * most));
+            assert!(!parameters.may_be_nearly_flat(sign * 1.01 * most));
+        }
+    }
+
+    /// The coin then lies flat on the edge that it was near to, at either end of a quadrant.
+    #[test]
+    fn a_coin_laid_flat_is_flat() {
+        let parameters = parameters(1.0, 0.5, 0.3);
+        let shape = &parameters.shape;
+        for (forwards, turned) in [(false, 1.0), (true, -1.0)] {
+            let flat = shape.last_angle(0, -turned);
+            let mut motion = rocking(&parameters, 0.0, 0.0, 0.0);
+            motion.delta = flat + turned * 1e-4;
+            let after = parameters.lay_flat(&mut motion);
+            assert!(matches!(after, AfterImpact::Decided(face) if face == Shape::face(0, flat)));
+            assert!((motion.delta - flat).abs() < 1e-15, "{}", motion.delta);
+            assert_eq!(motion.z, shape.base(0, forwards).0);
+            assert_eq!((motion.vx, motion.vz, motion.omega), (0.3, 0.0, 0.0));
         }
     }
 }

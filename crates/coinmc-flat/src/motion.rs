@@ -189,3 +189,44 @@ pub(crate) fn cap<L: Lane>(z: L, now: L, before: L) -> Option<L> {
         L::select(gained, share.sqrt(), L::splat(1.0))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_testkit::scene;
+
+    fn angle(motion: &Motion, units: &Units, shape: &Shape) -> f64 {
+        let axis = motion.state(units, shape).axis;
+        libm::atan2(axis.x, axis.z)
+    }
+
+    /// Through any number of quadrants, and either way, the axis turns by the angle that the coin turns by.
+    #[test]
+    fn turning_and_flying_turn_the_axis() {
+        let scene = scene(1.0, 0.5, 0.3);
+        let (units, shape) = (Units::new(&scene), Shape::new(&scene.coin));
+        for quadrant in 0..4 {
+            for by in [-9.0, -2.0, -0.1, 0.0, 0.1, 2.0, 9.0] {
+                let start = Motion {
+                    quadrant,
+                    delta: -0.2,
+                    omega: 4.0 * by,
+                    x: 0.0,
+                    z: 20.0,
+                    vx: 0.0,
+                    vz: 0.0,
+                    time: 0.0,
+                };
+                let (mut turned, mut flown) = (start, start);
+                turned.turn(&shape, by);
+                flown.fly(&shape, 0.25);
+                for motion in [turned, flown] {
+                    let found = angle(&motion, &units, &shape) - angle(&start, &units, &shape);
+                    assert!(libm::sin(0.5 * (found - by)).abs() < 1e-14, "{by}: {found}");
+                    let end = shape.last_angle(motion.quadrant, 1.0);
+                    assert!(motion.delta <= end && -motion.delta <= FRAC_PI_2 - end);
+                }
+            }
+        }
+    }
+}

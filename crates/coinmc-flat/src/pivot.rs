@@ -73,9 +73,7 @@ fn stick_until(
 ) -> (f64, PivotEnd) {
     let direction = 1.0_f64.copysign(motion.omega);
     let last = shape.last_angle(motion.quadrant, motion.omega);
-    // weights that add up to less than one, so that no friction is too great
-    let scale = 1.0 / (6.0 + 2.0 * energy);
-    let (cone_part, need_part) = (scale * (mu / (1.0 + mu)), scale / (1.0 + mu));
+    let cone = Cone::new(shape.k, mu, energy, direction);
     let mut delta = motion.delta;
     let mut step = unchecked;
     loop {
@@ -83,17 +81,56 @@ fn stick_until(
         if (last - delta) * direction <= 0.0 {
             return (last, PivotEnd::Flat);
         }
-        let (sin, cos) = sin_cos(delta);
-        let cone = cone_part * (shape.k + 3.0 * cos * cos - 2.0 * energy * cos);
-        let need = need_part * sin * (3.0 * cos - 2.0 * energy);
-        let cone_rate = direction * cone_part * sin * (2.0 * energy - 6.0 * cos);
-        let need_rate =
-            direction * need_part * (3.0 * (cos * cos - sin * sin) - 2.0 * energy * cos);
-        step = cone_step(cone - need, cone_rate - need_rate)
-            .min(cone_step(cone + need, cone_rate + need_rate));
+        let [above, below] = cone.spare(delta);
+        step = cone_step(above.0, above.1).min(cone_step(below.0, below.1));
         if step == 0.0 {
             return (delta, PivotEnd::Slips);
         }
+    }
+}
+
+/// What [`stick_until`] searches for a root.
+struct Cone {
+    k: f64,
+    energy: f64,
+    direction: f64,
+    mu_share: f64,
+    need_share: f64,
+}
+
+impl Cone {
+    fn new(k: f64, mu: f64, energy: f64, direction: f64) -> Self {
+        // weights that add up to less than one, so that no friction is too great
+        let scale = 1.0 / (6.0 + 2.0 * energy);
+        Self {
+            k,
+            energy,
+            direction,
+            mu_share: scale * (mu / (1.0 + mu)),
+            need_share: scale / (1.0 + mu),
+        }
+    }
+
+    /// q+ and q− over (1 + μ)(6 + 2E), each with its rate in the direction of turning.
+    #[inline]
+    fn spare(&self, delta: f64) -> [(f64, f64); 2] {
+        let &Self {
+            k,
+            energy,
+            direction,
+            mu_share,
+            need_share,
+        } = self;
+        let (sin, cos) = sin_cos(delta);
+        let cone = mu_share * (k + 3.0 * cos * cos - 2.0 * energy * cos);
+        let need = need_share * sin * (3.0 * cos - 2.0 * energy);
+        let cone_rate = direction * mu_share * sin * (2.0 * energy - 6.0 * cos);
+        let need_rate =
+            direction * need_share * (3.0 * (cos * cos - sin * sin) - 2.0 * energy * cos);
+        [
+            (cone - need, cone_rate - need_rate),
+            (cone + need, cone_rate + need_rate),
+        ]
     }
 }
 
@@ -182,4 +219,155 @@ fn turn_to<O: Observer>(
         });
     }
     place(motion, delta, took);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_testkit::{Dice, scene};
+
+    fn on_corner(shape: &Shape, delta: f64, omega: f64) -> Motion {
+        let (sin, cos) = sin_cos(delta);
+        let mut motion = Motion {
+            quadrant: 0,
+            delta,
+            omega,
+            x: 0.0,
+            z: cos,
+            vx: 0.0,
+            vz: 0.0,
+            time: 0.0,
+        };
+        assert!(delta > -shape.first_span(0) && delta < shape.last_angle(0, 1.0));
+        motion.set_on_corner(sin, cos, omega, 0.0);
+        motion
+    }
+
+    /// The force on a corner at rest is that which moves the centre on its circle, (sin δ, cos δ) from the
+    /// corner: x'' = F and z'' = N − 1.
+    #[test]
+    fn sticking_forces_move_the_centre_on_its_circle() {
+        let mut dice = Dice::new(61, 0);
+        for _ in 0..100 {
+            let (delta, omega) = (dice.between(-1.5, 1.5), dice.between(-1.0, 1.0));
+            let k = dice.between(0.1, 1.0);
+            let (sin, cos) = sin_cos(delta);
+            // the weight turns the coin about its corner
+            let turning = sin / (1.0 + k);
+            let (normal, friction) = sticking_forces(sin, cos, omega, k);
+            let x = cos * turning - sin * omega * omega;
+            let z = -sin * turning - cos * omega * omega;
+            assert!((friction - x).abs() < 1e-14);
+            assert!((normal - (1.0 + z)).abs() < 1e-14);
+        }
+    }
+
+    /// The rates are derivatives, and the second derivatives are at most 1: so no step passes a root.
+    #[test]
+    fn spare_friction_has_its_rates_and_a_bounded_curvature() {
+        let mut dice = Dice::new(62, 0);
+        for _ in 0..200 {
+            let (k, mu, energy) = (
+                dice.between(0.1, 1.0),
+                dice.between(0.01, 3.0),
+                dice.between(1.0, 3.0),
+            );
+            let direction = dice.pick(&[-1.0, 1.0]);
+            let cone = Cone::new(k, mu, energy, direction);
+            let delta = dice.between(-1.5, 1.5);
+            let at = cone.spare(delta);
+            let step = 1e-4;
+            let after = cone.spare(delta + direction * step);
+            let before = cone.spare(delta - direction * step);
+            let (sin, cos) = sin_cos(delta);
+            let rate = 2.0 * (energy - cos) / (1.0 + k);
+            let (normal, friction) = sticking_forces(sin, cos, rate.sqrt(), k);
+            let unit = (1.0 + k) / ((1.0 + mu) * (6.0 + 2.0 * energy));
+            for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
+                let expected = unit * (mu * normal - sign * friction);
+                assert!((at[side].0 - expected).abs() < 1e-14);
+                // errors of the central differences: step² and rounding over step²
+                let slope = (after[side].0 - before[side].0) / (2.0 * step);
+                assert!((at[side].1 - slope).abs() < 1e-7, "{slope}");
+                let curvature = (after[side].1 - before[side].1) / (2.0 * step);
+                assert!(curvature.abs() <= 1.0, "{curvature}");
+            }
+        }
+    }
+
+    /// A step leads to the root of q + q'τ − τ²/2.
+    #[test]
+    fn steps_lead_to_the_root_of_the_lower_bound() {
+        for q in [0.0, 1e-3, 0.3, 1.0] {
+            for rate in [-0.7, -1e-3, 1e-3, 0.4] {
+                let step = cone_step(q, rate);
+                assert!((q + rate * step - 0.5 * step * step).abs() < 1e-15);
+                assert_eq!(step > 0.0, q > 0.0 || rate > 0.0);
+            }
+        }
+        // without cancellation
+        assert!((cone_step(2e-12, -0.5) / 4e-12 - 1.0).abs() < 1e-10);
+    }
+
+    /// A coin that falls from its balance sticks until the friction that it needs is μN: there, and nowhere
+    /// earlier. With enough friction it falls flat.
+    #[test]
+    fn a_corner_slips_where_the_friction_needed_reaches_the_cone() {
+        let shape = Shape::new(&scene(1.0, 0.0, 0.3).coin);
+        let spare = |mu: f64, energy: f64, delta: f64| {
+            let (sin, cos) = sin_cos(delta);
+            let omega = (2.0 * (energy - cos) / (1.0 + shape.k)).sqrt();
+            let (normal, friction) = sticking_forces(sin, cos, omega, shape.k);
+            mu * normal - friction.abs()
+        };
+        let mut slips = 0;
+        for mu in [0.1, 0.2, 0.3, 0.5, 5.0] {
+            for direction in [-1.0, 1.0] {
+                let motion = on_corner(&shape, 0.01 * direction, 0.1 * direction);
+                let (_, cos) = sin_cos(motion.delta);
+                let energy = 0.5 * (1.0 + shape.k) * 0.01 + cos;
+                let (delta, end) = stick_until(&motion, &shape, mu, energy, 0.0);
+                if end == PivotEnd::Slips {
+                    slips += 1;
+                    // reached to 1e-13 of the distances in their unit, of order 0.1
+                    assert!(spare(mu, energy, delta).abs() < 1e-11);
+                } else {
+                    assert_eq!(end, PivotEnd::Flat);
+                    assert_eq!(delta, shape.last_angle(0, direction));
+                }
+                for share in 0..1000 {
+                    let share = 0.999 * f64::from(share) / 1000.0;
+                    let between = motion.delta + share * (delta - motion.delta);
+                    assert!(spare(mu, energy, between) > 0.0, "μ {mu}, δ {between}");
+                }
+            }
+        }
+        assert!((4..10).contains(&slips), "{slips}");
+    }
+
+    /// Nothing presses a smooth corner down where the centre slows as in free fall, d(v_z²/2)/dz = −1, on the way up
+    /// to the balance.
+    #[test]
+    fn a_smooth_corner_lifts_off_where_its_centre_slows_as_in_free_fall() {
+        let shape = Shape::new(&scene(1.0, 0.0, 0.0).coin);
+        let vertical = |cos: f64, energy: f64| {
+            let square = 1.0 - cos * cos;
+            square * (energy - cos) / (shape.k + square)
+        };
+        // the error of the difference is of order 1e-10
+        let slowing = |cos: f64, energy: f64| {
+            (vertical(cos + 1e-6, energy) - vertical(cos - 1e-6, energy)) / 2e-6
+        };
+        for (delta, omega, energy) in [(-0.4, 1.0, 1.14), (0.4, -1.0, 1.14), (-0.7, 1.0, 1.2)] {
+            let (opens_at, how) = slide_until(&on_corner(&shape, delta, omega), &shape, energy);
+            assert_eq!(how, PivotEnd::LiftsOff);
+            assert!((slowing(libm::cos(opens_at), energy) + 1.0).abs() < 1e-8);
+            assert!(opens_at * omega < 0.0 && (opens_at - delta) * omega > 0.0);
+            // on the way down, or with less energy, it stays on the surface until it is flat
+            for (omega, energy) in [(-omega, energy), (omega, 1.05)] {
+                let ends = slide_until(&on_corner(&shape, delta, omega), &shape, energy);
+                assert_eq!(ends, (shape.last_angle(0, omega), PivotEnd::Flat));
+            }
+        }
+    }
 }

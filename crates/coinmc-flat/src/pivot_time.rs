@@ -67,3 +67,38 @@ fn refine(
     refine(f, (a, fa), (m, middle), left, first, depth - 1)
         + refine(f, (m, middle), (b, fb), right, second, depth - 1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::Cell;
+
+    /// Newton's method takes a few times as long as one duration; bisection would take forty times.
+    #[test]
+    fn angles_are_found_in_a_few_durations() {
+        let calls = Cell::new(0);
+        let slowness = |d: f64| {
+            calls.set(calls.get() + 1);
+            libm::exp(d)
+        };
+        let took = duration(&slowness, 0.0, 1.0);
+        assert!((took - (std::f64::consts::E - 1.0)).abs() < 1e-12);
+        let one = calls.replace(0);
+        let angle = angle_after(&slowness, (0.0, 1.0), 0.5 * took, took);
+        assert!((angle - libm::log(1.0 + 0.5 * took)).abs() < 1e-12);
+        assert!(calls.get() < 10 * one, "{} and {one}", calls.get());
+    }
+
+    /// A long time is measured relative to itself.
+    #[test]
+    fn long_durations_take_no_more_panels() {
+        let calls = Cell::new(0);
+        let slowness = |d: f64| {
+            calls.set(calls.get() + 1);
+            assert!(calls.get() < 100_000, "refined without end");
+            1e6 * (2.0 + libm::sin(d))
+        };
+        let exact = 1e6 * (2.0 + 1.0 - libm::cos(1.0));
+        assert!((duration(&slowness, 0.0, 1.0) / exact - 1.0).abs() < 1e-12);
+    }
+}

@@ -136,3 +136,154 @@ impl Settings {
         Ok(Whole::COUNT.check("max_impacts", self.max_impacts)?)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::descriptor::ENGINE;
+    use crate::{GaekSukhov, HalfSine, Lever, LineContact, Materials, PulseTime};
+    use coinmc_core::EngineSettings;
+    use coinmc_testkit::scene;
+
+    fn values(law: Value, decision: Value) -> Values {
+        Values::new(vec![
+            ("law", law),
+            ("decision", decision),
+            ("zeno", Value::Number(0.02)),
+            ("tolerance", Value::Number(1e-7)),
+            ("max_impacts", Value::Integer(500)),
+        ])
+    }
+
+    fn law(name: &'static str, entries: Vec<(&'static str, Value)>) -> Value {
+        Value::Tagged(name, Box::new(Value::Table(Values::new(entries))))
+    }
+
+    fn read(given: Value) -> Settings {
+        Settings::from_values(&values(given, Value::Word("energy"))).expect("all is there")
+    }
+
+    #[test]
+    fn every_key_is_read() {
+        let fraction = Value::Tagged("energy_fraction", Box::new(Value::Number(0.25)));
+        for (decision, expected) in [
+            (Value::Word("energy"), Decision::Energy),
+            (fraction, Decision::EnergyFraction(0.25)),
+        ] {
+            let found = Settings::from_values(&values(Value::Word("moreau"), decision));
+            let expected = Settings {
+                law: Law::Moreau,
+                decision: expected,
+                zeno: 0.02,
+                tolerance: 1e-7,
+                max_impacts: 500,
+            };
+            assert_eq!(found.expect("all is there"), expected);
+        }
+    }
+
+    #[test]
+    fn each_law_is_read_with_its_parameters_by_its_name() {
+        let steel = || {
+            vec![
+                ("coin_young_pa", Value::Number(206e9)),
+                ("coin_poisson", Value::Number(0.3)),
+                ("surface_young_pa", Value::Number(207e9)),
+                ("surface_poisson", Value::Number(0.31)),
+                ("length_m", Value::Number(0.02)),
+            ]
+        };
+        let materials = Materials {
+            coin_young_pa: 206e9,
+            coin_poisson: 0.3,
+            surface_young_pa: 207e9,
+            surface_poisson: 0.31,
+            length_m: 0.02,
+        };
+        let lever = |lever: &'static str| {
+            let entries = vec![
+                ("eta_n_s", Value::Number(0.01)),
+                ("lever", Value::Word(lever)),
+            ];
+            law("gaek-sukhov", entries)
+        };
+        let gaek_sukhov = |lever: Lever| {
+            Law::GaekSukhov(GaekSukhov {
+                eta_n_s: 0.01,
+                lever,
+            })
+        };
+        let half_sine = |time: PulseTime, peak_n: Option<f64>| {
+            let law = HalfSine { time, peak_n };
+            Law::HalfSine(law)
+        };
+        let line_contact = |tangential: f64| {
+            Law::LineContact(LineContact {
+                materials,
+                tangential,
+            })
+        };
+        let mut stiff = steel();
+        stiff.push(("tangential", Value::Number(0.9)));
+        let given = vec![
+            ("time_s", Value::Number(1e-4)),
+            ("peak_n", Value::Number(30.0)),
+        ];
+        let contact = vec![("contact", Value::Table(Values::new(steel())))];
+        for (value, expected, name) in [
+            (Value::Word("moreau"), Law::Moreau, "moreau"),
+            (
+                Value::Word("chatterjee-ruina"),
+                Law::ChatterjeeRuina,
+                "chatterjee-ruina",
+            ),
+            (lever("height"), gaek_sukhov(Lever::Height), "gaek-sukhov"),
+            (
+                lever("diameter"),
+                gaek_sukhov(Lever::Diameter),
+                "gaek-sukhov",
+            ),
+            (lever("corner"), gaek_sukhov(Lever::Corner), "gaek-sukhov"),
+            (
+                law("half-sine", given),
+                half_sine(PulseTime::Given(1e-4), Some(30.0)),
+                "half-sine",
+            ),
+            (
+                law("half-sine", contact),
+                half_sine(PulseTime::Contact(materials), None),
+                "half-sine",
+            ),
+            (
+                law("line-contact", steel()),
+                line_contact(LineContact::mindlin(0.3)),
+                "line-contact",
+            ),
+            (
+                law("line-contact", stiff),
+                line_contact(0.9),
+                "line-contact",
+            ),
+        ] {
+            let found = read(value);
+            assert_eq!(found.law, expected);
+            // results name it as the config does
+            assert_eq!(EngineSettings::law(&found), name);
+            assert!(LAWS.iter().any(|law| law.name == name));
+            assert!(found.explain(&scene(1.0, 0.5, 0.0)).contains(name));
+        }
+        let unknown = values(Value::Word("newton"), Value::Word("energy"));
+        assert!(Settings::from_values(&unknown).is_err());
+    }
+
+    /// Flight is in closed form for any time, so that quadrature may take the place of tosses.
+    #[test]
+    fn flight_has_no_limit_of_time() {
+        let settings = read(Value::Word("moreau"));
+        assert_eq!(
+            settings.flight_limit_s(&scene(1.0, 0.5, 0.3)),
+            Some(f64::INFINITY)
+        );
+        assert_eq!(settings.descriptor().name, ENGINE.name);
+    }
+}

@@ -33,12 +33,12 @@ impl FlightStage {
         let mut segment = FlightSegment::of(motion, shape);
         let (mut t, mut least, mut evaluations) = (0.0, LEAST_DEPARTURE, 0.0);
         let mut high = segment.z > 1.0;
-        let mut touches = false;
         if departing && !high {
             let evaluation = segment.evaluate(t, true, &mut least);
             evaluations = 1.0;
-            (high, touches) = (evaluation.high, evaluation.touches);
-            if !(high || touches) {
+            // a departing corner does not approach, so it does not touch
+            high = evaluation.high;
+            if !high {
                 t = evaluation.next;
                 if t >= segment.end {
                     segment = segment.cross(shape);
@@ -51,10 +51,10 @@ impl FlightStage {
         self.vx[lane] = motion.vx;
         (self.t[lane], self.least[lane]) = (t, least);
         self.evaluations[lane] = evaluations;
-        let set = match (high, touches) {
-            (true, _) => &mut self.high,
-            (_, true) => &mut self.touching,
-            _ => &mut self.searching,
+        let set = if high {
+            &mut self.high
+        } else {
+            &mut self.searching
         };
         *set |= 1 << lane;
     }

@@ -87,3 +87,27 @@ impl Pool {
         self.free.push(id);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_core::Face;
+
+    /// There is room as long as a lane is free, and until as many tosses wait to be reported as there are lanes.
+    #[test]
+    fn there_is_room_until_lanes_or_reports_are_used_up() {
+        let mut pool = Pool::new(2);
+        for number in 0..2 * WIDTH as u64 {
+            assert!(pool.has_room());
+            assert!(pool.occupy(number).is_some());
+        }
+        assert!(!pool.has_room() && pool.occupy(99).is_none());
+        let mut pool = Pool::new(2);
+        for _ in 0..2 * WIDTH {
+            assert!(pool.has_room());
+            let id = pool.occupy(0).expect("there is room");
+            pool.end(id, Ended::Decided(Face::Heads));
+        }
+        assert!(!pool.has_room());
+    }
+}

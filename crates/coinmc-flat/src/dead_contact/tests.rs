@@ -228,3 +228,42 @@ fn a_coin_that_bounces_is_not_decided_by_it() {
         assert_eq!(decides, e == 0.0, "e = {e}");
     }
 }
+
+/// The barrier is that of the well on whose side of the balance the centre is: of a face or of the side, as the
+/// quadrants take turns. A coin that balances on its corner at rest is in no well.
+#[test]
+fn the_barrier_of_the_present_well_counts() {
+    let motion = |quadrant: u8, delta: f64| crate::motion::Motion {
+        quadrant,
+        delta,
+        omega: 0.0,
+        x: 0.0,
+        z: 0.75,
+        // sliding does not count
+        vx: 3.0,
+        vz: 0.0,
+        time: 0.0,
+    };
+    // the energy is between the two
+    let dead = DeadContact {
+        barriers: [0.8, 0.7],
+    };
+    for (quadrant, face_first) in [(0, true), (1, false), (2, true), (3, false)] {
+        for delta in [-0.1, 0.1] {
+            let on_face = (delta < 0.0) == face_first;
+            assert_eq!(
+                dead.decides(&motion(quadrant, delta), 0.3),
+                on_face,
+                "quadrant {quadrant}, δ {delta}"
+            );
+        }
+    }
+    let balanced = crate::motion::Motion {
+        z: 1.0,
+        ..motion(0, 0.0)
+    };
+    let dead = DeadContact {
+        barriers: [1.0, 1.0],
+    };
+    assert!(!dead.decides(&balanced, 0.3));
+}

@@ -331,3 +331,76 @@ impl ImpactLaw for HalfSineImpact {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pulse() -> Pulse {
+        Pulse {
+            delta: 0.4,
+            inertia: 0.3,
+            impulse: Impulse {
+                x: 0.3,
+                z: 1.2,
+                sticks: false,
+            },
+            time: 0.5,
+        }
+    }
+
+    /// The state at an instant is that instant's, in any step of the pulse: the time itself, and the angle to the
+    /// tolerance.
+    #[test]
+    fn the_state_within_a_pulse_is_that_of_the_instant() {
+        let pulse = pulse();
+        let at = |until: f64, tolerance: f64| {
+            let found = integrate(&pulse, 0.7, tolerance, until);
+            found.expect("it is smooth").0
+        };
+        for share in [0.01, 0.3, 0.5, 0.9, 0.999] {
+            let time = share * pulse.time;
+            let [turned, omega, reached] = at(time, 1e-6);
+            assert!((reached - time).abs() < 1e-14);
+            let exact = at(time, 1e-12);
+            // some ten steps of the tolerance times a speed of order 2
+            assert!((turned - exact[0]).abs() < 1e-4 && (omega - exact[1]).abs() < 1e-4);
+        }
+    }
+
+    /// The share of the impulse per time is half a sine: its integral is 1, and it is the same before and after its
+    /// middle.
+    #[test]
+    fn a_pulse_gives_all_of_its_impulse() {
+        let pulse = pulse();
+        let points = 1000;
+        let width = pulse.time / f64::from(points);
+        let middle = |i: i32| (f64::from(i) + 0.5) * width;
+        let sum: f64 = (0..points).map(|i| pulse.density(middle(i)) * width).sum();
+        // the midpoint rule errs by (π/points)²/24
+        assert!((sum - 1.0).abs() < 1e-6);
+        for share in [0.1, 0.25, 0.4] {
+            let (early, late) = (share * pulse.time, (1.0 - share) * pulse.time);
+            assert!((pulse.density(early) - pulse.density(late)).abs() < 1e-14);
+        }
+        assert_eq!(pulse.density(-1.0), 0.0);
+    }
+
+    /// The first step, a tenth of the pulse, is taken if its error in the angular velocity is within the tolerance
+    /// times the speed of the impact. (That in the angle, over the duration, is smaller here.)
+    #[test]
+    fn steps_are_as_long_as_the_angular_velocity_allows() {
+        let (pulse, omega) = (pulse(), 0.7);
+        let y = [0.0, omega, 0.0];
+        let error = Step::take(&pulse, &y, &pulse.rates(&y), 0.1 * pulse.time).error;
+        let speed = pulse.impulse.z + omega;
+        assert!(2.0 * error[0].abs() < error[1].abs() * pulse.time);
+        let steps = |share: f64| {
+            let tolerance = error[1].abs() / speed / share;
+            let found = integrate(&pulse, omega, tolerance, 1e-6 * pulse.time);
+            found.expect("it is smooth").1
+        };
+        assert_eq!(steps(0.99), 1);
+        assert!(steps(1.01) > 1);
+    }
+}

@@ -90,3 +90,43 @@ fn work<L: Lane>(k: ContactMatrix<L>, ux: L, uz: L, p: Impulse<L>) -> L {
     let after_z = uz + k.xz * p.x + k.zz * p.z;
     L::splat(0.5) * (p.x * (ux + after_x) + p.z * (uz + after_z))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_testkit::Dice;
+
+    /// A sliding impulse gives the normal rebound with friction at the edge of its cone, and it is one if the slip
+    /// after it has the direction that friction is against. Its work is the change of the kinetic energy, the
+    /// quadratic form of the contact's mass matrix.
+    #[test]
+    fn sliding_impulses_rebound_and_do_the_work_of_their_change() {
+        let (mut slides, mut others) = (0, 0);
+        for trial in 0..1000 {
+            let mut dice = Dice::new(63, trial);
+            let (sin, cos) = libm::sincos(dice.between(-1.5, 1.5));
+            let k = ContactMatrix::new(sin, cos, dice.between(0.1, 1.0));
+            let (ux, uz) = (dice.between(-2.0, 2.0), -dice.between(0.1, 2.0));
+            let friction = dice.pick(&[-1.0, 1.0]) * dice.between(0.05, 2.0);
+            let rebound = -1.5 * uz;
+            let (is_slide, p) = slide(k, ux, rebound, friction);
+            let after = (ux + k.xx * p.x + k.xz * p.z, uz + k.xz * p.x + k.zz * p.z);
+            // the resistance to it may be small
+            let scale = 1.0 + p.z.abs();
+            assert!((after.1 - (uz + rebound)).abs() < 1e-13 * scale);
+            assert!((p.x + friction * p.z).abs() < 1e-13 * scale);
+            if after.0.abs() > 1e-9 {
+                assert_eq!(is_slide, p.z > 0.0 && after.0 * friction > 0.0);
+            }
+            *(if is_slide { &mut slides } else { &mut others }) += 1;
+            // the energy of the contact point's velocity, to which the rest of the motion adds a constant
+            let energy = |(x, z): (f64, f64)| {
+                let (px, pz) = k.solve(x, z);
+                0.5 * (x * px + z * pz)
+            };
+            let change = energy(after) - energy((ux, uz));
+            assert!((work(k, ux, uz, p) - change).abs() < 1e-12 * scale * scale);
+        }
+        assert!(slides > 100 && others > 200, "{slides} {others}");
+    }
+}

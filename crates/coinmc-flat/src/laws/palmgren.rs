@@ -150,6 +150,7 @@ pub(crate) fn duration(stiffness: f64, mass: f64, speed: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use coinmc_core::schema::Value;
 
     #[test]
     fn constants_match_their_formulas() {
@@ -192,5 +193,40 @@ mod tests {
         let expected = 2.0 * max_compression(stiffness, mass, speed) / speed * sum;
         let found = duration(stiffness, mass, speed);
         assert!((found / expected - 1.0).abs() < 1e-6);
+    }
+
+    /// At the greatest compression all of the energy is stored: K δ^(n + 1)/(n + 1) = m v²/2.
+    #[test]
+    fn the_greatest_compression_stores_the_energy() {
+        for (stiffness, mass, speed) in [(3.0e7, 0.4, 1.7), (1e5, 2.0, 0.3)] {
+            let depth = max_compression(stiffness, mass, speed);
+            let stored = stiffness * libm::pow(depth, EXPONENT + 1.0) / (EXPONENT + 1.0);
+            assert!((stored / (0.5 * mass * speed * speed) - 1.0).abs() < 1e-13);
+        }
+    }
+
+    /// A table of materials may hold just the keys that are read, and those without a default must be there.
+    #[test]
+    fn the_keys_of_materials_are_those_that_are_read() {
+        let steel = Materials {
+            coin_young_pa: 206e9,
+            coin_poisson: 0.29,
+            surface_young_pa: 207e9,
+            surface_poisson: 0.31,
+            length_m: 0.02,
+        };
+        let entries = Materials::parameters().into_iter().map(|field| {
+            let value = match field.name {
+                "coin_young_pa" => steel.coin_young_pa,
+                "coin_poisson" => steel.coin_poisson,
+                "surface_young_pa" => steel.surface_young_pa,
+                "surface_poisson" => steel.surface_poisson,
+                "length_m" => steel.length_m,
+                other => panic!("nobody reads {other}"),
+            };
+            (field.name, Value::Number(value))
+        });
+        let values = Values::new(entries.collect());
+        assert_eq!(Materials::read(&values).expect("all are there"), steel);
     }
 }

@@ -154,6 +154,7 @@ impl<L: Lane> Flow<4, L> for &mut CheckedFlow<'_, L> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dormand_prince::{Step, System};
 
     fn integrate(steps: u32) -> SlideState {
         let sliding = Sliding {
@@ -201,5 +202,32 @@ mod tests {
         let (_, c) = sin_cos(y[0]);
         let normal = (1.0 - y[1] * y[1] * c) / sliding.openness(sin_cos(y[0]));
         assert!((change - (-0.7 * normal * 0.5)).abs() < 1e-9, "{change}");
+    }
+
+    /// The error of a step is that of the embedded pair, the worst of angle, angular velocity and slip, each over 1
+    /// plus its own size.
+    #[test]
+    fn errors_are_relative_to_the_state() {
+        struct Scalar(Sliding);
+        impl System<4> for Scalar {
+            fn rates(&self, y: &[f64; 4]) -> [f64; 4] {
+                self.0.at(y).0.rates
+            }
+        }
+        for (k, friction, y) in [
+            (0.3, 0.4, [-0.3, -0.4, 3.0, 0.0]),
+            (0.2, -0.4, [-0.3, 0.7, -40.0, 0.0]),
+            (0.3, 0.4, [0.1, -3.0, 0.2, 100.0]),
+        ] {
+            let sliding = Sliding { k, friction };
+            let (start, _) = sliding.at(&y);
+            let embedded = Step::take(&Scalar(sliding), &y, &start.rates, 0.2);
+            let shares = |i: usize| embedded.error[i].abs() / (1.0 + embedded.end[i].abs());
+            let expected = (0..3).map(shares).fold(0.0, f64::max);
+            let found = sliding.whole_step(&start, 0.2).error;
+            // the error is a difference of terms of order 1
+            assert!((found - expected).abs() < 1e-14, "{found} {expected}");
+            assert!(expected > 1e-9, "{expected}");
+        }
     }
 }

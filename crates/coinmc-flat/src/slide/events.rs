@@ -254,3 +254,174 @@ impl Cubic {
         (middle - self.value(middle) / self.slope(middle)).clamp(low, high)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::slide::equations::Sliding;
+    use coinmc_lanes::sin_cos;
+    use coinmc_testkit::scene;
+
+    fn margins(quadrant: Quadrant, direction: f64) -> Margins {
+        let shape = Shape::new(&scene(1.0, 0.0, 0.3).coin);
+        Margins {
+            shape,
+            quadrant,
+            direction,
+        }
+    }
+
+    /// t³ − 1.2t² + 0.21t + 0.5, whose slope 3(t − 0.1)(t − 0.7) is zero where it is highest and lowest.
+    #[test]
+    fn a_cubic_is_found_from_its_ends() {
+        let value = |t: f64| t * t * t - 1.2 * t * t + 0.21 * t + 0.5;
+        let slope = |t: f64| 3.0 * (t - 0.1) * (t - 0.7);
+        let cubic = Cubic::new([value(0.0), value(1.0)], [slope(0.0), slope(1.0)]);
+        for t in [0.0, 0.2, 0.5, 0.9, 1.0] {
+            assert!((cubic.value(t) - value(t)).abs() < 1e-15);
+            assert!((cubic.slope(t) - slope(t)).abs() < 1e-14);
+        }
+    }
+
+    /// 2(t + 0.5)(t − 0.6) is the slope of the first, −2(t − 0.6)(t − 1.5) of the second: falling at 0, rising at 1.
+    #[test]
+    fn a_cubic_that_turns_has_its_lowest_point() {
+        for (factor, other) in [(2.0, -0.5), (-2.0, 1.5)] {
+            let slope = |t: f64| factor * (t - other) * (t - 0.6);
+            let value = |t: f64| {
+                let linear = other * 0.6 * t;
+                0.4 + factor * (t * t * t / 3.0 - (other + 0.6) * t * t / 2.0 + linear)
+            };
+            assert!(slope(0.0) < 0.0 && slope(1.0) > 0.0);
+            let cubic = Cubic::new([value(0.0), value(1.0)], [slope(0.0), slope(1.0)]);
+            let (t, lowest) = cubic.lowest();
+            assert!((t - 0.6).abs() < 1e-14, "{t}");
+            assert!((lowest - value(0.6)).abs() < 1e-14);
+        }
+    }
+
+    /// Slip in its direction, the force on a corner over that at rest (1 − ω² cos δ), and the angle to flat.
+    #[test]
+    fn margins_are_slip_force_and_angle_to_flat() {
+        let margins = margins(0, -1.0);
+        let flat = margins.shape.last_angle(0, 1.0);
+        let delta = flat - 0.125;
+        let found = margins.at(&[delta, 0.5, -0.25, 9.0], sin_cos(delta).1);
+        let expected = [0.25, 1.0 - 0.25 * libm::cos(delta), 0.125];
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 2.0 * REST);
+        }
+    }
+
+    /// The slopes are the derivatives of the margins along the motion, on both sides of the balance.
+    #[test]
+    fn slopes_are_derivatives_of_the_margins() {
+        for direction in [1.0, -1.0] {
+            for (delta, omega) in [(-0.5, 0.6), (-0.5, -0.6), (0.3, 0.6), (0.3, -0.6)] {
+                let margins = margins(0, direction);
+                let sliding = Sliding {
+                    k: margins.shape.k,
+                    friction: 0.3 * direction,
+                };
+                let start = [delta, omega, 0.7 * direction, 0.0];
+                let (at, _) = sliding.at(&start);
+                let slopes = margins.slopes(&at);
+                let step = 1e-5;
+                let moved = |h: f64| {
+                    let y = std::array::from_fn(|i| start[i] + h * at.rates[i]);
+                    margins.at(&y, sin_cos(y[0]).1)
+                };
+                let (before, after) = (moved(-step), moved(step));
+                for which in 0..3 {
+                    // the error of a central difference is of order step²
+                    let slope = (after[which] - before[which]) / (2.0 * step);
+                    assert!((slopes[which] - slope).abs() < 1e-8, "margin {which}");
+                }
+            }
+        }
+    }
+
+    /// A state of a corner that slides at `slip` and speeds up at `rate`.
+    fn slipping(slip: f64, rate: f64) -> RatedState {
+        RatedState {
+            state: [-0.5, 0.0, slip, 0.0],
+            rates: [0.0, 0.0, rate, 0.0],
+            angle: sin_cos(-0.5),
+        }
+    }
+
+    /// A slip of 0.1 − t + t² would be negative half way, −0.15; one of 0.3 − t + t² would not, nor would one that
+    /// falls all the way. One that ends below zero has an event, not a dip.
+    #[test]
+    fn a_margin_that_dips_within_a_step_has_its_lowest_point() {
+        let margins = margins(0, 1.0);
+        let dip = |start: (f64, f64), end: (f64, f64)| {
+            // in a step of length 2 the slopes of the share are twice the rates
+            let (start, end) = (slipping(start.0, start.1), slipping(end.0, end.1));
+            margins.over_step(&start, &end, 2.0).dip()
+        };
+        let found = dip((0.1, -0.5), (0.1, 0.5)).expect("it dips");
+        assert!((found - 0.5).abs() < 1e-12);
+        assert_eq!(dip((0.3, -0.5), (0.3, 0.5)), None);
+        assert_eq!(dip((0.3, -0.5), (0.1, 0.0)), None);
+        assert_eq!(dip((0.1, -0.5), (-0.1, 0.5)), None);
+    }
+
+    /// A margin of zero holds; of two that are broken the one whose root comes first counts.
+    #[test]
+    fn the_earliest_of_the_broken_margins_counts() {
+        let line = |from: f64, to: f64| Cubic::new([from, to], [to - from; 2]);
+        let curves = [line(1.0, 0.0), line(1.0, -1.0), line(1.0, -3.0)];
+        let broken = |margins: &[f64; 3]| earliest(&curves, margins).map(|(which, _)| which);
+        assert_eq!(broken(&[0.0, 1.0, 1.0]), None);
+        assert_eq!(broken(&[0.0, -1.0, 1.0]), Some(1));
+        assert_eq!(broken(&[0.0, -1.0, -3.0]), Some(2));
+        let (_, root) = earliest(&curves, &[0.0, -1.0, 1.0]).expect("it is broken");
+        assert!((root - 0.5).abs() < 1e-12);
+    }
+
+    /// The state a share of the step on, if slip falls as 1 − 2^(t − 1)·c from the start.
+    fn fall(c: f64, share: f64) -> RatedState {
+        let power = c * libm::exp2(share - 1.0);
+        slipping(1.0 - power, -std::f64::consts::LN_2 * power)
+    }
+
+    /// Slip that falls along an exponential to zero is followed there by a few trials, to the margin's tolerance.
+    #[test]
+    fn an_event_is_found_in_a_few_trials() {
+        let margins = margins(0, 1.0);
+        for c in [1.05, 1.4, 1.9] {
+            let (start, end) = (fall(c, 0.0), fall(c, 1.0));
+            let step = margins.over_step(&start, &end, 1.0);
+            let mut search = step.search(&start).expect("it stops");
+            assert_eq!(search.end(), SlideEnd::Stops);
+            let trial = |share: f64| {
+                let state = fall(c, share).state;
+                Some((state, sin_cos(state[0])))
+            };
+            while !search.record(&margins, trial(search.share)) {}
+            let exact = 1.0 - libm::log2(c);
+            let found = search.last_inside.share;
+            assert!(found < exact + 2.0 * REST && exact - found < 2.0 * EVENT);
+            assert!(search.trials <= 6, "{}", search.trials);
+        }
+    }
+
+    /// Where the margin jumps, the bracket is halved until it is as narrow as the tolerance: 37 times.
+    #[test]
+    fn a_search_ends_when_its_bracket_has_closed() {
+        let margins = margins(0, 1.0);
+        let (start, end) = (fall(1.4, 0.0), fall(1.4, 1.0));
+        let step = margins.over_step(&start, &end, 1.0);
+        let mut search = step.search(&start).expect("it stops");
+        let trial = |share: f64| {
+            let slip = if share < 0.3 { 10.0 } else { -10.0 };
+            let state = slipping(slip, 0.0).state;
+            Some((state, sin_cos(state[0])))
+        };
+        while !search.record(&margins, trial(search.share)) {}
+        let found = search.last_inside.share;
+        assert!(found < 0.3 && 0.3 - found <= EVENT);
+        assert!(search.trials < 50, "{}", search.trials);
+    }
+}

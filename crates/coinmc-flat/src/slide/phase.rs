@@ -270,3 +270,61 @@ fn place(
     y[1] = motion.omega;
     y[2] = motion.vx - motion.omega * cos;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_testkit::scene;
+
+    /// A step of length 2 whose slip dips where it is lowest, unless it would be hardly shorter.
+    #[test]
+    fn a_step_that_dips_ends_where_the_margin_is_lowest() {
+        let shape = Shape::new(&scene(1.0, 0.0, 0.3).coin);
+        let (sin, cos) = sin_cos(-0.5);
+        let mut motion = Motion {
+            quadrant: 0,
+            delta: -0.5,
+            omega: 0.0,
+            x: 0.0,
+            z: cos,
+            vx: 0.0,
+            vz: 0.0,
+            time: 0.0,
+        };
+        motion.set_on_corner(sin, cos, 0.0, 1.0);
+        let mut phase = SlidePhase::new(
+            &motion,
+            &SlideStart {
+                shape: &shape,
+                friction: 0.3,
+                dead: DeadContact::NONE,
+                slip: 1.0,
+                tolerance: 1e-6,
+                max_steps: 10,
+            },
+        );
+        phase.h = 2.0;
+        // the slip along the step is (t - lowest)² - 1e-6
+        let shorter = |lowest: f64| {
+            let at = |t: f64| RatedState {
+                state: [-0.5, 0.0, (t - lowest) * (t - lowest) - 1e-6, 0.0],
+                rates: [0.0, 0.0, 2.0 * (t - lowest) / phase.h, 0.0],
+                angle: (sin, cos),
+            };
+            let attempt = StepAttempt {
+                start: at(0.0),
+                begins: true,
+                end: at(1.0),
+                error: 0.0,
+                possible: true,
+            };
+            let margins = phase
+                .margins
+                .over_step(&attempt.start, &attempt.end, phase.h);
+            phase.shorter(&attempt, &margins)
+        };
+        let found = shorter(0.25).expect("it dips");
+        assert!((found - 0.5).abs() < 1e-9, "{found}");
+        assert_eq!(shorter(0.995), None);
+    }
+}

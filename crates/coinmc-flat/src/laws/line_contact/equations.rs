@@ -234,4 +234,33 @@ mod tests {
         // without cancellation
         assert!((turned(1e-9).1 / 5e-19 - 1.0).abs() < 1e-15);
     }
+
+    /// The mass of a corner along the normal is the inverse of K_zz of its contact.
+    #[test]
+    fn the_mass_of_a_corner_is_that_of_its_contact() {
+        let corner = Corner {
+            x: 0.0,
+            z: -1.0,
+            gap: 0.0,
+            grip: Grip::Apart,
+            damping: 0.0,
+        };
+        let body = Body {
+            inertia: 0.3,
+            stiffness: 1e6,
+            mu: 0.3,
+            tangential: 0.0,
+            corners: [corner; CORNERS],
+        };
+        for delta in [-0.9, 0.0, 0.4] {
+            let (sin, cos) = sin_cos(delta);
+            let at = Place {
+                rx: -sin,
+                rz: -cos,
+                ..Place::default()
+            };
+            let matrix = crate::ContactMatrix::new(sin, cos, body.inertia);
+            assert!((body.mass(&at) * matrix.zz - 1.0).abs() < 1e-15);
+        }
+    }
 }

@@ -167,4 +167,29 @@ mod tests {
         state.change(CORNERS);
         assert_eq!(state.body.corners[0].grip, Grip::Sticks);
     }
+
+    /// The instant at which a corner leaves the surface is found to rounding of its depth, just beyond it.
+    #[test]
+    fn a_corner_that_leaves_is_found_just_above_the_surface() {
+        for share in [0.1, 0.35, 0.8] {
+            let (mut state, _) = sliding();
+            let length = state.scale.length;
+            let h = 0.3 * state.scale.time;
+            // slower and slower, so that the height is no line in time
+            state.body.corners[0].grip = Grip::Smooth;
+            state.y[3] = 0.0;
+            state.y[4] = 0.7;
+            state.y[1] = -0.7 * share * h;
+            let rates = state.body.rates(&state.y);
+            let step = Step::take(&state.body, &state.y, &rates, h);
+            let (found, which) = state.first_event(&step).expect("it leaves");
+            assert_eq!(which, 0);
+            let depth = |share: f64| state.body.clearance(&step.at(share), 0) / length;
+            assert!(
+                depth(found) < 0.0 && depth(found) > -1.1 * BROKEN,
+                "{}",
+                depth(found)
+            );
+        }
+    }
 }

@@ -182,4 +182,28 @@ mod tests {
         step.error[3] = 2.0 * f64::EPSILON * 1e9;
         assert!((state.error(&step) - 0.5).abs() < 1e-6);
     }
+
+    /// In the duration of one impact the balance may drift by the tolerance times the energy, in half of it by half
+    /// as much; the energy is that of the motion and once more its normal part.
+    #[test]
+    fn the_balance_may_drift_by_the_tolerance_in_one_duration() {
+        let state = state(1e-6);
+        let energy = 0.5 * (1.0 + 0.3 * 0.25) + 0.5 * 0.4;
+        for share in [0.5, 1.0, 2.0] {
+            let allowed = state.allowed_drift(share * state.scale.time);
+            assert!((allowed / (1e-6 * share * energy) - 1.0).abs() < 1e-12);
+        }
+        // rounding is always allowed
+        assert_eq!(state.allowed_drift(0.0), energy * ROUNDING);
+    }
+
+    /// What the balance has lost since the touch is the imbalance.
+    #[test]
+    fn the_imbalance_is_what_the_balance_has_lost() {
+        let mut state = state(1e-6);
+        assert_eq!(state.imbalance(), 0.0);
+        let lost = 0.125;
+        state.balance -= lost;
+        assert!((state.imbalance() - lost).abs() < 1e-15);
+    }
 }

@@ -234,3 +234,113 @@ fn apply(motion: &mut Motion, shape: &Shape, state: &ImpactState) {
     motion.turn(shape, turned);
     (motion.vx, motion.vz, motion.omega) = (vx, vz, omega);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_core::Breaks;
+    use coinmc_testkit::scene;
+
+    fn law() -> (LineContactImpact, Shape) {
+        let scene = scene(1.0, 0.5, 0.3);
+        let materials = Materials {
+            coin_young_pa: 1e8,
+            coin_poisson: 0.3,
+            surface_young_pa: 1e8,
+            surface_poisson: 0.3,
+            length_m: 0.02,
+        };
+        let line = LineContact {
+            materials,
+            tangential: 0.8,
+        };
+        let law = LineContactImpact::new(&scene, line).expect("valid");
+        (law, Shape::new(&scene.coin))
+    }
+
+    fn touching(quadrant: u8, delta: f64) -> Motion {
+        let (sin, cos) = sin_cos(delta);
+        let mut motion = Motion {
+            quadrant,
+            delta,
+            omega: 0.0,
+            x: 0.0,
+            z: cos,
+            vx: 0.0,
+            vz: 0.0,
+            time: 0.0,
+        };
+        motion.set_on_corner(sin, cos, 0.5, 0.2);
+        motion.vz -= 0.7;
+        motion
+    }
+
+    /// The four corners of a rectangle 2R × H that is turned by θ = 90° q + φ, relative to its centre, with their heights.
+    #[test]
+    fn corners_are_those_of_the_turned_rectangle() {
+        let (_, shape) = law();
+        let (half_height, radius) = shape.base(0, false);
+        for quadrant in 0..4 {
+            for delta in [-0.3, 0.0, 0.2] {
+                let motion = touching(quadrant, delta);
+                let turn = std::f64::consts::FRAC_PI_2 * f64::from(quadrant);
+                let theta = turn + delta + shape.first_span(quadrant);
+                let (sin, cos) = libm::sincos(theta);
+                let found = corners(&motion, &shape);
+                let mut seen = [false; CORNERS];
+                for (across, along) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+                    let (across, along) = (across * radius, along * half_height);
+                    let (x, z) = (across * cos + along * sin, along * cos - across * sin);
+                    let near =
+                        |corner: &Corner| (corner.x - x).abs() + (corner.z - z).abs() < 1e-14;
+                    let which = found.iter().position(near).expect("a corner is there");
+                    seen[which] = true;
+                    assert!((found[which].gap - (motion.z + z)).abs() < 1e-14);
+                }
+                assert_eq!(seen, [true; CORNERS]);
+                assert_eq!(found[0].gap, 0.0);
+            }
+        }
+    }
+
+    /// The speed of the impact is that at which the corner comes down, however the coin turns.
+    #[test]
+    fn the_scale_is_set_by_the_approach_of_the_corner() {
+        let (law, shape) = law();
+        let mut motion = touching(0, 0.3);
+        let mut breaks = Breaks::default();
+        let impact = Impact {
+            motion: &mut motion,
+            shape: &shape,
+            restitution: 0.5,
+            friction: 0.3,
+            tolerance: 1e-6,
+            breaks: &mut breaks,
+            record: crate::impact_law::ImpactRecord::default(),
+        };
+        assert!((law.at_touch(&impact).scale.speed - 0.7).abs() < 1e-15);
+    }
+
+    /// An impact whose motion is no number is given up and counted, and the impulse of a rigid corner is left to
+    /// follow.
+    #[test]
+    fn an_impact_that_is_given_up_is_counted() {
+        let (law, shape) = law();
+        let mut motion = touching(0, 0.3);
+        motion.vx = f64::NAN;
+        let mut breaks = Breaks::default();
+        for times in 1..3 {
+            let mut impact = Impact {
+                motion: &mut motion,
+                shape: &shape,
+                restitution: 0.5,
+                friction: 0.3,
+                tolerance: 1e-6,
+                breaks: &mut breaks,
+                record: crate::impact_law::ImpactRecord::default(),
+            };
+            assert_eq!(law.resolve(&mut impact), Resolution::UseImpulse);
+            assert_eq!(breaks.unresolved, times);
+        }
+    }
+}

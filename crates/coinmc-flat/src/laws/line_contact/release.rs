@@ -39,7 +39,8 @@ impl ImpactState {
         let press = 1.0 + self.y[5] * self.y[5] * at.rz;
         let energy = self.body.mass(at) * (0.5 * at.rate * at.rate - press * at.depth)
             + self.body.stored(at);
-        at.depth > 0.0 && press > 0.0 && energy < 0.0
+        // at a depth, that is only where the corner is pressed down
+        at.depth > 0.0 && energy < 0.0
     }
 
     /// Whether the coin as a whole has too little energy to leave the surface: without the energy
@@ -59,5 +60,66 @@ impl ImpactState {
         let moving = 0.5 * (vz * vz + self.body.inertia * omega * omega);
         // the centre is above the first corner by its own height at the touch
         moving + stored + (z - corners[0].z) < flat
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::line_contact::equations::{Body, Corner};
+
+    /// A coin that turns at `omega`, with its lowest corner under the centre.
+    fn state(omega: f64) -> ImpactState {
+        let corner = |x: f64, z: f64| Corner {
+            x,
+            z,
+            gap: 0.0,
+            grip: Grip::Smooth,
+            damping: 0.0,
+        };
+        let body = Body {
+            inertia: 0.3,
+            stiffness: 1e6,
+            mu: 0.0,
+            tangential: 0.0,
+            corners: [(0.0, -1.0), (-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(x, z)| corner(x, z)),
+        };
+        ImpactState::new(body, [0.0, -1.0, omega], (1.0, 1.0), (0.0, 0.8), 1e-6)
+    }
+
+    /// A corner at a depth comes back if it is fast enough to climb against the force that presses it down, 1 less
+    /// the centre's acceleration ω² |r_z|; what its spring stores helps. The mass that moves is 1/(1 + r_x²/k).
+    #[test]
+    fn a_corner_is_bound_if_it_cannot_climb_out() {
+        let resting = libm::pow(1e-6, 0.9);
+        for omega in [0.0, 0.5] {
+            let state = state(omega);
+            let depth = 0.1 * resting;
+            let place = |rate: f64, depth: f64| Place {
+                rx: 0.6,
+                rz: -0.8,
+                depth,
+                rate,
+                slip: 0.0,
+            };
+            let mass = 0.3 / (0.3 + 0.36);
+            let exponent = 19.0 / 9.0;
+            let stored = 1e6 * libm::pow(depth, exponent) / exponent;
+            let climb = (1.0 - 0.8 * omega * omega) * depth - stored / mass;
+            let fastest = (2.0 * climb).sqrt();
+            for sign in [1.0, -1.0] {
+                assert!(state.is_bound(&place(sign * 0.999 * fastest, depth)));
+                assert!(!state.is_bound(&place(sign * 1.001 * fastest, depth)));
+            }
+            assert!(!state.is_bound(&place(0.0, -depth)));
+        }
+        // one that turns so fast that nothing presses it down is never bound
+        let place = Place {
+            rx: 0.6,
+            rz: -1.0,
+            depth: 0.1 * resting,
+            ..Place::default()
+        };
+        assert!(!state(1.01).is_bound(&place));
     }
 }
