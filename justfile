@@ -28,9 +28,9 @@ kill-test kills="200":
 mutants *arguments:
     scripts/mutants {{arguments}}
 
-# Breaks a thousand lines of a listed module in one build, and lists what its unit tests let live
-survey-mutants module *arguments:
-    scripts/survey-mutants {{module}} {{arguments}}
+# Breaks a thousand lines of a listed module in one build, and lists what its tests let live
+survey-mutants *arguments:
+    scripts/survey-mutants {{arguments}}
 
 # The tables of docs/, from the CSV files under data/validation
 tables *arguments:
