@@ -260,6 +260,7 @@ mod tests {
     use super::*;
     use crate::engine::FlatEngine;
     use crate::laws::moreau::Moreau;
+    use crate::motion::tests::on_corner;
     use crate::settings::Settings;
     use coinmc_testkit::scene;
 
@@ -270,19 +271,7 @@ mod tests {
     }
 
     fn turning(delta: f64, omega: f64) -> Motion {
-        let (sin, cos) = sin_cos(delta);
-        let mut motion = Motion {
-            quadrant: 0,
-            delta,
-            omega,
-            x: 0.0,
-            z: cos,
-            vx: 0.0,
-            vz: 0.0,
-            time: 0.0,
-        };
-        motion.set_on_corner(sin, cos, omega, 0.0);
-        motion
+        on_corner(0, delta, omega, 0.0)
     }
 
     /// A coin at rest that leans on its corner pulls with s c/(1 + k) and presses with 1 − s²/(1 + k).

@@ -191,9 +191,26 @@ pub(crate) fn cap<L: Lane>(z: L, now: L, before: L) -> Option<L> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use coinmc_testkit::scene;
+
+    /// A coin on its corner that turns at `omega` and slips at `slip`.
+    pub(crate) fn on_corner(quadrant: u8, delta: f64, omega: f64, slip: f64) -> Motion {
+        let (sin, cos) = sin_cos(delta);
+        let mut motion = Motion {
+            quadrant,
+            delta,
+            omega,
+            x: 0.0,
+            z: cos,
+            vx: 0.0,
+            vz: 0.0,
+            time: 0.0,
+        };
+        motion.set_on_corner(sin, cos, omega, slip);
+        motion
+    }
 
     fn angle(motion: &Motion, units: &Units, shape: &Shape) -> f64 {
         let axis = motion.state(units, shape).axis;

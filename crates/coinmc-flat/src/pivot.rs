@@ -224,23 +224,12 @@ fn turn_to<O: Observer>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::tests::on_corner;
     use coinmc_testkit::{Dice, scene};
 
-    fn on_corner(shape: &Shape, delta: f64, omega: f64) -> Motion {
-        let (sin, cos) = sin_cos(delta);
-        let mut motion = Motion {
-            quadrant: 0,
-            delta,
-            omega,
-            x: 0.0,
-            z: cos,
-            vx: 0.0,
-            vz: 0.0,
-            time: 0.0,
-        };
+    fn turning(shape: &Shape, delta: f64, omega: f64) -> Motion {
         assert!(delta > -shape.first_span(0) && delta < shape.last_angle(0, 1.0));
-        motion.set_on_corner(sin, cos, omega, 0.0);
-        motion
+        on_corner(0, delta, omega, 0.0)
     }
 
     /// The force on a corner at rest is that which moves the centre on its circle, (sin δ, cos δ) from the
@@ -323,7 +312,7 @@ mod tests {
         let mut slips = 0;
         for mu in [0.1, 0.2, 0.3, 0.5, 5.0] {
             for direction in [-1.0, 1.0] {
-                let motion = on_corner(&shape, 0.01 * direction, 0.1 * direction);
+                let motion = turning(&shape, 0.01 * direction, 0.1 * direction);
                 let (_, cos) = sin_cos(motion.delta);
                 let energy = 0.5 * (1.0 + shape.k) * 0.01 + cos;
                 let (delta, end) = stick_until(&motion, &shape, mu, energy, 0.0);
@@ -359,13 +348,13 @@ mod tests {
             (vertical(cos + 1e-6, energy) - vertical(cos - 1e-6, energy)) / 2e-6
         };
         for (delta, omega, energy) in [(-0.4, 1.0, 1.14), (0.4, -1.0, 1.14), (-0.7, 1.0, 1.2)] {
-            let (opens_at, how) = slide_until(&on_corner(&shape, delta, omega), &shape, energy);
+            let (opens_at, how) = slide_until(&turning(&shape, delta, omega), &shape, energy);
             assert_eq!(how, PivotEnd::LiftsOff);
             assert!((slowing(libm::cos(opens_at), energy) + 1.0).abs() < 1e-8);
             assert!(opens_at * omega < 0.0 && (opens_at - delta) * omega > 0.0);
             // on the way down, or with less energy, it stays on the surface until it is flat
             for (omega, energy) in [(-omega, energy), (omega, 1.05)] {
-                let ends = slide_until(&on_corner(&shape, delta, omega), &shape, energy);
+                let ends = slide_until(&turning(&shape, delta, omega), &shape, energy);
                 assert_eq!(ends, (shape.last_angle(0, omega), PivotEnd::Flat));
             }
         }

@@ -274,24 +274,14 @@ fn place(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::tests::on_corner;
     use coinmc_testkit::scene;
 
     /// A step of length 2 whose slip dips where it is lowest, unless it would be hardly shorter.
     #[test]
     fn a_step_that_dips_ends_where_the_margin_is_lowest() {
         let shape = Shape::new(&scene(1.0, 0.0, 0.3).coin);
-        let (sin, cos) = sin_cos(-0.5);
-        let mut motion = Motion {
-            quadrant: 0,
-            delta: -0.5,
-            omega: 0.0,
-            x: 0.0,
-            z: cos,
-            vx: 0.0,
-            vz: 0.0,
-            time: 0.0,
-        };
-        motion.set_on_corner(sin, cos, 0.0, 1.0);
+        let motion = on_corner(0, -0.5, 0.0, 1.0);
         let mut phase = SlidePhase::new(
             &motion,
             &SlideStart {
@@ -309,7 +299,7 @@ mod tests {
             let at = |t: f64| RatedState {
                 state: [-0.5, 0.0, (t - lowest) * (t - lowest) - 1e-6, 0.0],
                 rates: [0.0, 0.0, 2.0 * (t - lowest) / phase.h, 0.0],
-                angle: (sin, cos),
+                angle: sin_cos(motion.delta),
             };
             let attempt = StepAttempt {
                 start: at(0.0),

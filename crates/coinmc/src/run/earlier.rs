@@ -164,19 +164,12 @@ fn open(path: &Path) -> io::Result<Option<File>> {
 mod tests {
     use super::*;
     use crate::run::finished::Finished;
+    use crate::run::schedule::tests::{chunk, plan};
     use coinmc_core::Tally;
     use std::ops::Range;
     use tempfile::tempdir;
 
-    fn plan() -> Plan {
-        let config = "coin.ratio = [1.0, 2.0]\nsurface = { restitution = 0.5, friction = 0.3 }\n\
-                      launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 1000";
-        crate::config::parse("test", config, &[]).unwrap()
-    }
-
-    fn chunk(point: usize, tosses: Range<u64>) -> Chunk {
-        Chunk { point, tosses }
-    }
+    const STOP: &str = "tosses = 1000";
 
     /// So many tosses, of 3 µs each.
     fn tossed(tosses: u64) -> Tossed {
@@ -191,7 +184,7 @@ mod tests {
 
     /// What is read of a file of these ranges.
     fn written(ranges: &[(usize, Range<u64>)]) -> Earlier {
-        let (plan, dir) = (plan(), tempdir().unwrap());
+        let (plan, dir) = (plan(STOP), tempdir().unwrap());
         let mut writing = Writing::begin(dir.path(), "a hash").unwrap();
         for (point, tosses) in ranges {
             let counts = tossed(tosses.end - tosses.start);
@@ -222,7 +215,7 @@ mod tests {
     /// What is not there holds nothing; what cannot be read is an error.
     #[test]
     fn a_file_that_cannot_be_read_is_told() {
-        let (plan, dir) = (plan(), tempdir().unwrap());
+        let (plan, dir) = (plan(STOP), tempdir().unwrap());
         let read = || Earlier::read(dir.path(), &plan, "a hash");
         assert!(read().unwrap().ranges.is_empty());
         for name in [Earlier::FILE, Earlier::NEXT] {

@@ -466,4 +466,4 @@ fn first_looks(plan: &Plan, targets: Targets, points: u64) -> (Looks, StoppedBy)
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -114,14 +114,11 @@ pub(super) fn read(dir: &Path, tallies: &Tallies, plan: &Plan) -> Result<Beginni
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::schedule::tests::plan;
     use coinmc_core::Tally;
     use tempfile::tempdir;
 
-    fn plan() -> Plan {
-        let config = "coin.ratio = [1.0, 2.0]\nsurface = { restitution = 0.5, friction = 0.3 }\n\
-                      launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 1000";
-        crate::config::parse("test", config, &[]).unwrap()
-    }
+    const STOP: &str = "tosses = 1000";
 
     /// The first tosses of a point.
     fn begun(point: usize, counted: u64) -> (Chunk, Tossed) {
@@ -145,7 +142,7 @@ mod tests {
 
     #[test]
     fn the_file_holds_the_beginnings_of_chunks_that_are_not_finished() {
-        let (plan, dir) = (plan(), tempdir().unwrap());
+        let (plan, dir) = (plan(STOP), tempdir().unwrap());
         let tallies = Tallies::of(dir.path(), plan.hash());
         let unfinished = Unfinished::open(dir.path(), &tallies, &plan).unwrap();
         let update = |begun: &[(Chunk, Tossed)], finished: &[&Chunk]| {
@@ -179,7 +176,7 @@ mod tests {
 
     #[test]
     fn a_file_that_cannot_be_read_is_told() {
-        let (plan, dir) = (plan(), tempdir().unwrap());
+        let (plan, dir) = (plan(STOP), tempdir().unwrap());
         std::fs::create_dir(dir.path().join(Unfinished::FILE)).unwrap();
         let tallies = Tallies::of(dir.path(), plan.hash());
         let read = read(dir.path(), &tallies, &plan);

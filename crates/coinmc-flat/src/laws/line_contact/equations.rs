@@ -216,8 +216,30 @@ impl System<11> for Body {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// A coin with its corners here, all as high above the surface.
+    pub(in crate::laws::line_contact) fn body(
+        mu: f64,
+        corners: [(f64, f64); CORNERS],
+        gap: f64,
+        grip: Grip,
+    ) -> Body {
+        Body {
+            inertia: 0.3,
+            stiffness: 1e6,
+            mu,
+            tangential: 0.0,
+            corners: corners.map(|(x, z)| Corner {
+                x,
+                z,
+                gap,
+                grip,
+                damping: 0.0,
+            }),
+        }
+    }
 
     /// Also beyond half a turn, where the polynomials of flight do not hold.
     #[test]
@@ -238,20 +260,7 @@ mod tests {
     /// The mass of a corner along the normal is the inverse of K_zz of its contact.
     #[test]
     fn the_mass_of_a_corner_is_that_of_its_contact() {
-        let corner = Corner {
-            x: 0.0,
-            z: -1.0,
-            gap: 0.0,
-            grip: Grip::Apart,
-            damping: 0.0,
-        };
-        let body = Body {
-            inertia: 0.3,
-            stiffness: 1e6,
-            mu: 0.3,
-            tangential: 0.0,
-            corners: [corner; CORNERS],
-        };
+        let body = body(0.3, [(0.0, -1.0); CORNERS], 0.0, Grip::Apart);
         for delta in [-0.9, 0.0, 0.4] {
             let (sin, cos) = sin_cos(delta);
             let at = Place {

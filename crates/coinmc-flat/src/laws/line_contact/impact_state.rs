@@ -112,25 +112,13 @@ fn kinetic(body: &Body, y: &State) -> f64 {
 mod tests {
     use super::*;
     use crate::dormand_prince::System;
-    use crate::laws::line_contact::equations::{Corner, Grip};
+    use crate::laws::line_contact::equations::Grip;
+    use crate::laws::line_contact::equations::tests::body;
 
     /// A coin that turns above the surface, at the scales of an impact at speed 1.
     fn state(tolerance: f64) -> ImpactState {
-        let corner = |x: f64, z: f64| Corner {
-            x,
-            z,
-            gap: 1.0,
-            grip: Grip::Apart,
-            damping: 0.0,
-        };
-        let body = Body {
-            inertia: 0.3,
-            stiffness: 1e6,
-            mu: 0.3,
-            tangential: 0.0,
-            corners: [(-0.6, -0.8), (0.6, -0.8), (-0.6, 0.8), (0.6, 0.8)]
-                .map(|(x, z)| corner(x, z)),
-        };
+        let corners = [(-0.6, -0.8), (0.6, -0.8), (-0.6, 0.8), (0.6, 0.8)];
+        let body = body(0.3, corners, 1.0, Grip::Apart);
         ImpactState::new(body, [0.0, -1.0, 0.5], (1.0, 0.4), (0.1, 0.8), tolerance)
     }
 

@@ -238,6 +238,8 @@ fn apply(motion: &mut Motion, shape: &Shape, state: &ImpactState) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::impact_law::ImpactRecord;
+    use crate::motion::tests::on_corner;
     use coinmc_core::Breaks;
     use coinmc_testkit::scene;
 
@@ -259,18 +261,7 @@ mod tests {
     }
 
     fn touching(quadrant: u8, delta: f64) -> Motion {
-        let (sin, cos) = sin_cos(delta);
-        let mut motion = Motion {
-            quadrant,
-            delta,
-            omega: 0.0,
-            x: 0.0,
-            z: cos,
-            vx: 0.0,
-            vz: 0.0,
-            time: 0.0,
-        };
-        motion.set_on_corner(sin, cos, 0.5, 0.2);
+        let mut motion = on_corner(quadrant, delta, 0.5, 0.2);
         motion.vz -= 0.7;
         motion
     }
@@ -303,21 +294,25 @@ mod tests {
         }
     }
 
+    fn impact<'a>(motion: &'a mut Motion, shape: &'a Shape, breaks: &'a mut Breaks) -> Impact<'a> {
+        Impact {
+            motion,
+            shape,
+            restitution: 0.5,
+            friction: 0.3,
+            tolerance: 1e-6,
+            breaks,
+            record: ImpactRecord::default(),
+        }
+    }
+
     /// The speed of the impact is that at which the corner comes down, however the coin turns.
     #[test]
     fn the_scale_is_set_by_the_approach_of_the_corner() {
         let (law, shape) = law();
         let mut motion = touching(0, 0.3);
         let mut breaks = Breaks::default();
-        let impact = Impact {
-            motion: &mut motion,
-            shape: &shape,
-            restitution: 0.5,
-            friction: 0.3,
-            tolerance: 1e-6,
-            breaks: &mut breaks,
-            record: crate::impact_law::ImpactRecord::default(),
-        };
+        let impact = impact(&mut motion, &shape, &mut breaks);
         assert!((law.at_touch(&impact).scale.speed - 0.7).abs() < 1e-15);
     }
 
@@ -330,15 +325,7 @@ mod tests {
         motion.vx = f64::NAN;
         let mut breaks = Breaks::default();
         for times in 1..3 {
-            let mut impact = Impact {
-                motion: &mut motion,
-                shape: &shape,
-                restitution: 0.5,
-                friction: 0.3,
-                tolerance: 1e-6,
-                breaks: &mut breaks,
-                record: crate::impact_law::ImpactRecord::default(),
-            };
+            let mut impact = impact(&mut motion, &shape, &mut breaks);
             assert_eq!(law.resolve(&mut impact), Resolution::UseImpulse);
             assert_eq!(breaks.unresolved, times);
         }

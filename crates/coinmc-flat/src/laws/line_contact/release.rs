@@ -66,24 +66,12 @@ impl ImpactState {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::line_contact::equations::{Body, Corner};
+    use crate::laws::line_contact::equations::tests::body;
 
     /// A coin that turns at `omega`, with its lowest corner under the centre.
     fn state(omega: f64) -> ImpactState {
-        let corner = |x: f64, z: f64| Corner {
-            x,
-            z,
-            gap: 0.0,
-            grip: Grip::Smooth,
-            damping: 0.0,
-        };
-        let body = Body {
-            inertia: 0.3,
-            stiffness: 1e6,
-            mu: 0.0,
-            tangential: 0.0,
-            corners: [(0.0, -1.0), (-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(x, z)| corner(x, z)),
-        };
+        let corners = [(0.0, -1.0), (-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)];
+        let body = body(0.0, corners, 0.0, Grip::Smooth);
         ImpactState::new(body, [0.0, -1.0, omega], (1.0, 1.0), (0.0, 0.8), 1e-6)
     }
 

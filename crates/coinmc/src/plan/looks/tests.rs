@@ -407,8 +407,8 @@ fn a_forecast_is_what_is_tossed_in_the_end() {
     );
 }
 
-#[test]
-fn a_stage_that_is_cut_short_is_the_last_with_all_that_is_left_of_the_confidence() {
+/// In the first stage after a pilot of 1024 tosses.
+fn after_a_pilot() -> Looks {
     let targets = Targets {
         half_width: Some(1e-9),
         ..NONE
@@ -416,6 +416,12 @@ fn a_stage_that_is_cut_short_is_the_last_with_all_that_is_left_of_the_confidence
     let mut looks = Looks::new(targets, 0.95);
     looks.pilot = Some(1024);
     looks.stage = 1024..2048;
+    looks
+}
+
+#[test]
+fn a_stage_that_is_cut_short_is_the_last_with_all_that_is_left_of_the_confidence() {
+    let mut looks = after_a_pilot();
     let first = looks.confidence();
     assert!((first - (1.0 - 0.97 * 0.05)).abs() < 1e-12);
     assert_eq!(looks.look(&mean(1024, 0.3, 0.4)), Verdict::More);
@@ -440,13 +446,7 @@ fn a_stage_that_is_cut_short_is_the_last_with_all_that_is_left_of_the_confidence
 /// No look was before, so that there is none to be final: all of α is left.
 #[test]
 fn a_first_stage_without_tosses_has_all_of_the_confidence() {
-    let targets = Targets {
-        half_width: Some(1e-9),
-        ..NONE
-    };
-    let mut looks = Looks::new(targets, 0.95);
-    looks.pilot = Some(1024);
-    looks.stage = 1024..2048;
+    let mut looks = after_a_pilot();
     looks.end_after(0);
     assert_eq!((looks.stage(), looks.counted()), (1024..1024, 0));
     assert!((looks.confidence() - 0.95).abs() < 1e-12);

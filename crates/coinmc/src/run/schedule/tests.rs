@@ -7,7 +7,7 @@ use coinmc_core::Tally;
 use std::ops::Range;
 
 /// Two points.
-fn plan(stop: &str) -> Arc<Plan> {
+pub(in crate::run) fn plan(stop: &str) -> Arc<Plan> {
     let config = format!(
         "coin.ratio = [1.0, 2.0]\nsurface = {{ restitution = 0.5, friction = 0.3 }}\n\
          launch.preset = 'robot'\nengine.flat = {{}}\n[stop]\n{stop}"
@@ -15,7 +15,7 @@ fn plan(stop: &str) -> Arc<Plan> {
     Arc::new(crate::config::parse("test", &config, &[]).unwrap())
 }
 
-fn chunk(point: usize, tosses: Range<u64>) -> Chunk {
+pub(in crate::run) fn chunk(point: usize, tosses: Range<u64>) -> Chunk {
     Chunk { point, tosses }
 }
 
@@ -305,12 +305,9 @@ fn the_pilots_tell_what_the_run_will_toss() {
     );
 }
 
-/// Tosses for the same half width go as p (1 − p): 1/4 of a face that shows half of the times, 0.09 of one that
-/// shows nine times of ten, or 0.11 at the margin of 2.5 standard errors that a pilot of a thousand tosses has.
-#[test]
-fn the_tosses_of_the_run_go_to_where_more_are_needed() {
-    let plan = plan("half_width = 1e-3\ntotal_tosses = 100_000");
-    let mut schedule = whole_of(&plan, Finished::default());
+/// Played to its end: half tails at the first point, which so needs more tosses, and a tenth at the second.
+fn played_with_fewer_tails_at_the_second(plan: &Arc<Plan>) -> Schedule {
+    let mut schedule = whole_of(plan, Finished::default());
     while let Next::Chunk(Job { chunk, .. }) = schedule.next() {
         let tosses = chunk.tosses.end - chunk.tosses.start;
         let tails = if chunk.point == 0 {
@@ -322,6 +319,15 @@ fn the_tosses_of_the_run_go_to_where_more_are_needed() {
         (result.tally.heads, result.tally.tails) = (tosses - tails, tails);
         schedule.complete(&chunk, &ChunkResult::Tossed(result));
     }
+    schedule
+}
+
+/// Tosses for the same half width go as p (1 − p): 1/4 of a face that shows half of the times, 0.09 of one that
+/// shows nine times of ten, or 0.11 at the margin of 2.5 standard errors that a pilot of a thousand tosses has.
+#[test]
+fn the_tosses_of_the_run_go_to_where_more_are_needed() {
+    let plan = plan("half_width = 1e-3\ntotal_tosses = 100_000");
+    let schedule = played_with_fewer_tails_at_the_second(&plan);
     let [more, less] = [0, 1].map(|point| schedule.counted(point).tally.tosses() as f64);
     let ratio = more / less;
     assert!(ratio > 2.0 && ratio < 2.8, "{ratio}");
@@ -346,19 +352,7 @@ fn a_limit_that_is_not_exceeded_does_not_stop_a_point() {
 #[test]
 fn a_point_that_gets_all_that_it_may_have_is_not_limited_by_the_run() {
     let plan = plan("half_width = 1e-4\nmax_tosses = 5000\ntotal_tosses = 9000");
-    let mut schedule = whole_of(&plan, Finished::default());
-    while let Next::Chunk(Job { chunk, .. }) = schedule.next() {
-        let tosses = chunk.tosses.end - chunk.tosses.start;
-        // the first point needs more
-        let tails = if chunk.point == 0 {
-            tosses / 2
-        } else {
-            tosses / 10
-        };
-        let mut result = half_and_half(tosses);
-        (result.tally.heads, result.tally.tails) = (tosses - tails, tails);
-        schedule.complete(&chunk, &ChunkResult::Tossed(result));
-    }
+    let schedule = played_with_fewer_tails_at_the_second(&plan);
     let [first, second] = [0, 1].map(|point| schedule.counted(point));
     assert_eq!(first.stopped_by, StoppedBy::MaxTosses);
     assert_eq!(first.tally.tosses() + first.look.unwrap().0, 5000);
