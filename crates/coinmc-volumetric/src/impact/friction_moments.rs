@@ -306,6 +306,21 @@ mod tests {
         }
     }
 
+    /// Any coin that strikes, with friction lengths of this at most.
+    fn drawn(dice: &mut Dice, most: f64) -> (Body, Friction, ContactPoint<f64>) {
+        let coin = Coin::cylinder(libm::exp(dice.between(-2.0, 1.0)), 0.01);
+        let body = Body::new(&coin.expect("a valid coin"));
+        let friction = Friction {
+            mu: 0.3,
+            contour: dice.between(0.0, most),
+            pivoting: dice.between(0.0, most),
+        };
+        let tilt = libm::sincos(dice.between(0.2, 1.5));
+        let mut part = || dice.between(-1.0, 1.0);
+        let point = ContactPoint::at(&body, tilt, [part(), part(), -1.0], [part(), part()]);
+        (body, friction, point)
+    }
+
     /// The derivative with respect to σ, with which Newton's method goes, is that of the solution itself,
     /// by differences over so little that no limit is reached between.
     #[test]
@@ -313,16 +328,7 @@ mod tests {
         let mut kinds = [0; 4];
         for trial in 0..4000 {
             let mut dice = Dice::new(322, trial);
-            let coin = Coin::cylinder(libm::exp(dice.between(-2.0, 1.0)), 0.01);
-            let body = Body::new(&coin.expect("a valid coin"));
-            let friction = Friction {
-                mu: 0.3,
-                contour: dice.between(0.0, 0.2),
-                pivoting: dice.between(0.0, 0.2),
-            };
-            let tilt = libm::sincos(dice.between(0.2, 1.5));
-            let mut part = || dice.between(-1.0, 1.0);
-            let point = ContactPoint::at(&body, tilt, [part(), part(), -1.0], [part(), part()]);
+            let (body, friction, point) = drawn(&mut dice, 0.2);
             let yy = point.matrix(&body).yy;
             let moments = FrictionMoments::new(&body, &friction, &point, yy);
             let (at, z, dz) = (
@@ -363,16 +369,7 @@ mod tests {
         let mut kinds = [0; 4];
         for trial in 0..2000 {
             let mut dice = Dice::new(323, trial);
-            let coin = Coin::cylinder(libm::exp(dice.between(-2.0, 1.0)), 0.01);
-            let body = Body::new(&coin.expect("a valid coin"));
-            let friction = Friction {
-                mu: 0.3,
-                contour: dice.between(0.0, 0.5),
-                pivoting: dice.between(0.0, 0.5),
-            };
-            let tilt = libm::sincos(dice.between(0.2, 1.5));
-            let mut part = || dice.between(-1.0, 1.0);
-            let point = ContactPoint::at(&body, tilt, [part(), part(), -1.0], [part(), part()]);
+            let (body, friction, point) = drawn(&mut dice, 0.5);
             let yy = point.matrix(&body).yy;
             let (y, z) = (dice.between(-1.0, 1.0), dice.between(0.1, 2.0));
             let (c, p) = FrictionMoments::new(&body, &friction, &point, yy).held(y, z);
