@@ -44,3 +44,43 @@ pub fn compare(fits: &[Fit]) -> Vec<Ranked> {
     ranked.sort_by(|a, b| a.aic.total_cmp(&b.aic));
     ranked
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::tests::blank;
+
+    /// Criteria of 4, 2 and 10 by Akaike, whose weights are as e⁻¹ : 1 : e⁻⁴.
+    #[test]
+    fn laws_are_ranked_by_what_they_need_and_leave() {
+        let fits = [(1, -1.0), (2, 1.0), (3, -2.0)].map(|(fitted, log_likelihood)| Fit {
+            n: 3,
+            fitted,
+            log_likelihood,
+            ..blank()
+        });
+        let ranked = compare(&fits);
+        let ln_3 = libm::log(3.0);
+        let of = |fit, delta: f64, fitted: f64| Ranked {
+            fit,
+            aic: 2.0 + delta,
+            bic: 2.0 + delta + fitted * (ln_3 - 2.0),
+            delta_aic: delta,
+            delta_bic: delta + (fitted - 2.0) * (ln_3 - 2.0),
+            weight: libm::exp(-0.5 * delta) / (1.0 + libm::exp(-1.0) + libm::exp(-4.0)),
+        };
+        let expected = [of(1, 0.0, 2.0), of(0, 2.0, 1.0), of(2, 8.0, 3.0)];
+        for (found, expected) in ranked.iter().zip(expected) {
+            assert_eq!(found.fit, expected.fit);
+            for (found, expected) in [
+                (found.aic, expected.aic),
+                (found.bic, expected.bic),
+                (found.delta_aic, expected.delta_aic),
+                (found.delta_bic, expected.delta_bic),
+                (found.weight, expected.weight),
+            ] {
+                assert!((found - expected).abs() < 1e-12, "{ranked:?}");
+            }
+        }
+    }
+}

@@ -260,4 +260,42 @@ mod tests {
         };
         assert_eq!(laws(given).map(|law| shared.applied(law)), laws(stiffer));
     }
+
+    /// Units of the search: g, the distance d of the rim from the centre and the mass make a momentum, a time and a weight.
+    #[test]
+    fn units_of_the_search_are_made_of_the_coin_and_gravity() {
+        let coin = Coin::cylinder(1.0, 0.02)
+            .and_then(|coin| coin.with_mass(0.05))
+            .unwrap();
+        let d = (0.02_f64 * 0.02 + 0.01 * 0.01).sqrt();
+        for (parameter, unit) in [
+            (Parameter::Restitution, 1.0),
+            (Parameter::Friction, 1.0),
+            (Parameter::Stiffness, 1.0),
+            (Parameter::Eta, 0.05 * (9.0 * d).sqrt()),
+            (Parameter::PulseTime, (d / 9.0).sqrt()),
+            (Parameter::Peak, 100.0 * 0.05 * 9.0),
+            (Parameter::Floor, d),
+        ] {
+            let found = parameter.scale(&coin, 9.0);
+            assert!((found / unit - 1.0).abs() < 1e-12, "{parameter:?} {found}");
+        }
+    }
+
+    /// What a search begins with lies within the range, whatever the unit is.
+    #[test]
+    fn values_that_make_no_sense_are_clamped() {
+        let wild = Parameter::ALL
+            .into_iter()
+            .fold(Shared::default(), |shared, one| shared.with(one, -1e9));
+        let clamped = wild.clamped();
+        let of = Parameter::ALL.map(|one| clamped.get(one));
+        assert_eq!(of, [0.0, 0.0, 0.0, 1e-7, 1e-9, 1e-6, -1e9]);
+        let wild = Parameter::ALL
+            .into_iter()
+            .fold(Shared::default(), |shared, one| shared.with(one, 1e12));
+        let clamped = wild.clamped();
+        let of = Parameter::ALL.map(|one| clamped.get(one));
+        assert_eq!(of, [1.0, 10.0, 1e6, 1.0, 1e9, 1e6, 1e12]);
+    }
 }

@@ -144,4 +144,45 @@ mod tests {
             assert!(flight > 5, "{theta}: {flight}");
         }
     }
+
+    /// A coin in free fall that is followed by nothing but the last flight's closed form.
+    #[test]
+    fn a_flight_goes_on_as_bodies_fall() {
+        let model = Model {
+            law: Law::Moreau,
+            coin: Coin::cylinder(1.0, 0.01).unwrap(),
+            gravity_m_s2: 9.81,
+        };
+        let start = Launch {
+            height_m: 3.0,
+            velocity_m_s: Vector3::new(0.5, 0.0, 1.5),
+            axis: UnitVector3::new_normalize(Vector3::new(0.6, 0.0, 0.8)),
+            spin_rad_s: Vector3::new(0.0, -2.0, 0.0),
+        };
+        let mut path = Path::default();
+        let last = State {
+            time_s: 2.0,
+            position_m: Vector3::new(0.25, 0.0, start.height_m),
+            velocity_m_s: start.velocity_m_s,
+            axis: start.axis,
+            spin_rad_s: start.spin_rad_s,
+        };
+        continue_flight(&mut path, &last, &model, &[2.0, 2.5, 3.5]);
+        let theta = libm::atan2(0.6, 0.8);
+        for (seen, t) in path.seen.iter().zip([0.0, 0.5, 1.5]) {
+            let expected = [
+                0.25 + 0.5 * t,
+                3.0 + 1.5 * t - 0.5 * 9.81 * t * t,
+                theta - 2.0 * t,
+            ];
+            assert!(
+                seen.iter()
+                    .zip(expected)
+                    .all(|(a, b)| (a - b).abs() < 1e-14),
+                "{seen:?}"
+            );
+        }
+        // at 1.5 s it would be below the ground
+        assert_eq!(path.valid, 2);
+    }
 }

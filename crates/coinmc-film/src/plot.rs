@@ -156,10 +156,153 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::tests::blank;
+    use crate::fit::{FittedDrop, Noise};
 
     /// Names of files may hold anything; XML 1.0 has no control characters at all.
     #[test]
     fn text_is_escaped_and_control_characters_are_left_out() {
         assert_eq!(escaped("a<b> & \u{7}\u{1b}θ"), "a&lt;b&gt; &amp; θ");
+    }
+
+    fn residual(drop: usize, time_s: f64, coordinate: Coordinate) -> Residual {
+        Residual {
+            drop,
+            frame: 0,
+            time_s,
+            coordinate,
+            seen: 0.0,
+            residual: 0.0,
+            standardised: 1.0,
+        }
+    }
+
+    /// Two drops, filmed from 2 s and from 5 s on, the longer one for 4 s: x and z were marked.
+    fn two_drops() -> Fit {
+        let drop = |name: &str, impacts_s: &[f64]| FittedDrop {
+            name: name.to_owned(),
+            start: [0.0; 6],
+            half_width: [None; 6],
+            frames: 2,
+            of_frames: 2,
+            impacts_s: impacts_s.to_vec(),
+        };
+        let noise = |coordinate| Noise {
+            coordinate,
+            n: 3,
+            sigma: 1.0,
+            correlation: 0.0,
+        };
+        let residuals = [Coordinate::X, Coordinate::Z]
+            .into_iter()
+            .flat_map(|coordinate| {
+                [(0, 2.0), (0, 3.0), (1, 5.0), (1, 9.0)]
+                    .map(|(drop, time_s)| residual(drop, time_s, coordinate))
+            });
+        Fit {
+            drops: vec![drop("a", &[1.0]), drop("b", &[2.0, 4.0])],
+            noise: vec![noise(Coordinate::X), noise(Coordinate::Z)],
+            residuals: residuals.collect(),
+            ..blank()
+        }
+    }
+
+    /// The values of an attribute in the lines with this text.
+    fn values(svg: &str, with: &str, attribute: &str) -> Vec<f64> {
+        let lines = svg.lines().filter(|line| line.contains(with));
+        let of = |line: &str| {
+            let (_, rest) = line.split_once(&format!(" {attribute}=\"")).unwrap();
+            rest.split_once('"').unwrap().0.parse().unwrap()
+        };
+        lines.map(of).collect()
+    }
+
+    /// Times count from each drop's own first frame, and points, impacts and ticks share one scale: a second is a
+    /// quarter of the width.
+    #[test]
+    fn points_and_impacts_stand_at_their_times() {
+        let svg = residuals_svg(&two_drops());
+        let (left, right) = (64.0, 704.0);
+        let at = |t: f64| left + (right - left) * t / 4.0;
+        assert_eq!(
+            values(&svg, "<circle", "cx"),
+            [0.0, 1.0, 0.0, 4.0].map(at).repeat(2)
+        );
+        assert_eq!(
+            values(&svg, "stroke-dasharray", "x1"),
+            [1.0, 2.0, 4.0].map(at).repeat(2)
+        );
+        assert_eq!(
+            values(&svg, "stroke-dasharray", "x2"),
+            [1.0, 2.0, 4.0].map(at).repeat(2)
+        );
+        for (fifth, label) in ["0.00", "0.80", "1.60", "2.40", "3.20", "4.00"]
+            .iter()
+            .enumerate()
+        {
+            let label = format!(">{label}</text>");
+            assert_eq!(values(&svg, &label, "x"), [left + 128.0 * fifth as f64]);
+        }
+        assert_eq!(svg.matches("#d55e00").count(), 2 * (2 + 2));
+    }
+
+    /// One row below the other, the dashed lines within theirs, the labels of time below all, all within the picture.
+    #[test]
+    fn rows_stand_below_each_other() {
+        let svg = residuals_svg(&two_drops());
+        let middles = values(&svg, "stroke=\"#888888\"", "y1");
+        assert_eq!(middles, [28.0 + 65.0, 28.0 + 195.0]);
+        assert_eq!(values(&svg, "<svg", "height"), [28.0 + 260.0 + 40.0]);
+        let dashed = |of| values(&svg, "stroke-dasharray", of);
+        for (i, (top, bottom)) in dashed("y1").into_iter().zip(dashed("y2")).enumerate() {
+            assert_eq!(
+                [top, bottom],
+                [middles[i / 3] - 61.0, middles[i / 3] + 61.0]
+            );
+        }
+        // bands of two standard deviations, 57 above the middle is five
+        for (band, middle) in values(&svg, "fill=\"#eeeeee\"", "y")
+            .into_iter()
+            .zip(&middles)
+        {
+            assert!((band - (middle - 57.0 * 0.4)).abs() < 0.051);
+        }
+        let heights = values(&svg, "fill=\"#eeeeee\"", "height");
+        assert!(
+            heights
+                .into_iter()
+                .all(|height| (height - 2.0 * 57.0 * 0.4).abs() < 0.051)
+        );
+        assert_eq!(values(&svg, "fill=\"#eeeeee\"", "width"), [640.0; 2]);
+        assert_eq!(values(&svg, ">4.00</text>", "y"), [288.0 + 16.0]);
+        assert_eq!(
+            values(&svg, "time since the first frame", "y"),
+            [288.0 + 34.0]
+        );
+        assert_eq!(values(&svg, "time since the first frame", "x"), [384.0]);
+        assert_eq!(values(&svg, ">-4</text>", "x"), [58.0; 2]);
+        for (name, middle) in [("x", middles[0]), ("z", middles[1])] {
+            assert_eq!(
+                values(&svg, &format!(">{name}</text>"), "y"),
+                [middle + 4.0]
+            );
+        }
+    }
+
+    /// A single frame has no duration, and a point beyond the axis is drawn at its edge with its value.
+    #[test]
+    fn what_lies_beyond_the_axis_is_named() {
+        let mut fit = two_drops();
+        fit.residuals.truncate(1);
+        let svg = residuals_svg(&fit);
+        assert_eq!(values(&svg, "<circle", "cx"), [64.0]);
+        assert!(svg.contains(">1.00</text>") && !svg.contains("<title>"));
+        fit.residuals[0].standardised = 5.0;
+        assert!(!residuals_svg(&fit).contains("<title>"));
+        fit.residuals[0].standardised = -7.25;
+        fit.residuals[0].frame = 12;
+        let svg = residuals_svg(&fit);
+        assert!(svg.contains("<title>a frame 12: -7.2</title>"), "{svg}");
+        assert_eq!(values(&svg, "<circle", "cy"), [93.0 + 57.0]);
     }
 }

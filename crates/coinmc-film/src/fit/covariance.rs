@@ -159,7 +159,7 @@ fn valleys(problem: &Problem, kept: &[usize], inverse: &DMatrix<f64>) -> Vec<Vec
 }
 
 /// Whether an unknown would be determined within its range if all others were known.
-fn is_determined(problem: &Problem, j: usize, square: f64) -> bool {
+pub(super) fn is_determined(problem: &Problem, j: usize, square: f64) -> bool {
     let unknown = problem.unknowns[j];
     let width = match unknown {
         Unknown::Shared(parameter) => {
@@ -264,5 +264,96 @@ mod tests {
         for (found, expected) in [(free[0], 1.0), (free[1], 1.0), (held, 0.36)] {
             assert!((found / expected - 1.0).abs() < 0.04, "{found} {expected}");
         }
+    }
+
+    fn nothing(unknowns: usize) -> Spread {
+        Spread {
+            errors: vec![None; unknowns],
+            taken: [0.0; 3],
+            points: [0.0; 3],
+            factor: 1.0,
+            inflation: vec![1.0; unknowns],
+            valleys: Vec::new(),
+            directions: DMatrix::zeros(unknowns, 0),
+        }
+    }
+
+    /// The weighted mean of two series has the variance V (1 + 4 Σ wᵢ (1 − wᵢ)/νᵢ) if the weights come from the series: Meier,
+    /// Biometrics 9 (1953) 59.
+    #[test]
+    fn estimated_weights_add_what_meier_says() {
+        let (counts, sigmas) = ([5, 8], [0.5, 0.25]);
+        let mut slopes = Vec::new();
+        let mut deviations = Vec::new();
+        for (i, coordinate) in [Coordinate::X, Coordinate::Theta].into_iter().enumerate() {
+            for frame in 0..counts[i] {
+                slopes.push(1.0 / sigmas[i]);
+                deviations.push(Deviation {
+                    drop: 0,
+                    frame,
+                    coordinate,
+                    by: 0.0,
+                });
+            }
+        }
+        let rows = DMatrix::from_column_slice(slopes.len(), 1, &slopes);
+        let of_series = [0, 1].map(|i: usize| counts[i] as f64 / (sigmas[i] * sigmas[i]));
+        let variance = 1.0 / (of_series[0] + of_series[1]);
+        let weights = of_series.map(|one| one * variance);
+        let spread = Spread {
+            taken: [weights[0], 0.0, weights[1]],
+            points: [5.0, 0.0, 8.0],
+            ..nothing(1)
+        };
+        let inverse = DMatrix::from_element(1, 1, variance);
+        let found = excess(&rows, &deviations, &inverse, &spread)[0];
+        let term = |i: usize| weights[i] * (1.0 - weights[i]) / (counts[i] as f64 - weights[i]);
+        let expected = 4.0 * variance * (term(0) + term(1));
+        assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+    }
+
+    /// The fewest of those coordinates that are marked, and never none.
+    #[test]
+    fn degrees_are_those_of_the_coordinate_with_fewest() {
+        let of = |points, taken| {
+            Spread {
+                taken,
+                points,
+                ..nothing(0)
+            }
+            .degrees()
+        };
+        assert_eq!(of([20.0, 15.0, 30.0], [2.0, 3.0, 25.0]), 5.0);
+        assert_eq!(of([0.0, 15.0, 30.0], [0.0, 3.0, 2.5]), 12.0);
+        assert_eq!(of([4.0, 15.0, 30.0], [4.0, 3.0, 2.5]), 1.0);
+    }
+
+    /// M Mᵀ times the kept rows and columns is 1, whatever their units.
+    #[test]
+    fn the_root_is_that_of_the_inverse() {
+        let slopes = DMatrix::from_row_slice(
+            4,
+            3,
+            &[1.0, 9.0, 2e6, 3.0, 9.0, -1e6, 0.0, 9.0, 4e6, -2.0, 9.0, 1e6],
+        );
+        let normal = slopes.tr_mul(&slopes);
+        for kept in [vec![0, 1, 2], vec![0, 2], vec![1]] {
+            let root = root_of_inverse(&normal, &kept).unwrap();
+            let part = DMatrix::from_fn(kept.len(), kept.len(), |i, j| normal[(kept[i], kept[j])]);
+            let units = DMatrix::from_fn(kept.len(), kept.len(), |i, j| {
+                (part[(j, j)] / part[(i, i)]).sqrt()
+            });
+            let product = (&root * root.transpose() * part).component_div(&units);
+            assert!((product - DMatrix::identity(kept.len(), kept.len())).amax() < 1e-12);
+        }
+    }
+
+    /// The third is the sum of the first two, of which the second weighs more in it.
+    #[test]
+    fn what_depends_on_others_is_named() {
+        let slopes = DMatrix::from_row_slice(3, 3, &[1.0, 2.0, 3.0, 1.0, -1.0, 0.0, 1.0, 0.5, 1.5]);
+        let normal = slopes.tr_mul(&slopes);
+        assert_eq!(root_of_inverse(&normal, &[0, 1, 2]).unwrap_err(), 2);
+        assert!(root_of_inverse(&normal, &[0, 1]).is_ok());
     }
 }

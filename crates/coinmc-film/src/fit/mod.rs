@@ -286,3 +286,6 @@ fn intervals<'a>(
     }
     Ok(ends)
 }
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -375,3 +375,88 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
         Some(matrix)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The slopes of residuals that change by these over steps of ±1/8.
+    fn slopes<const N: usize>(up: [f64; N], down: [f64; N]) -> [f64; N] {
+        let mut matrix = DMatrix::zeros(N, 1);
+        slope(
+            (&up, 0.125),
+            (&down, -0.125),
+            matrix.view_mut((0, 0), (N, 1)),
+        );
+        std::array::from_fn(|i| matrix[i])
+    }
+
+    /// y = 3 s + 8 s² and y = −s: the central difference leaves out what is even.
+    #[test]
+    fn a_slope_is_the_central_difference() {
+        assert_eq!(slopes([0.5, -0.125], [-0.25, 0.125]), [3.0, -1.0]);
+    }
+
+    /// Of changes whose squares differ more than fourfold, the greater ones cross a leap; signs do not matter.
+    #[test]
+    fn a_slope_across_a_leap_is_that_of_the_other_side() {
+        assert_eq!(slopes([0.5, -0.5], [-0.125, 0.25]), [1.0, -2.0]);
+        assert_eq!(slopes([0.125, 0.25], [0.5, -0.5]), [1.0, 2.0]);
+        let (near, beyond) = (0.249, 0.251);
+        assert_eq!(
+            slopes([near, -near], [-0.125, 0.125]),
+            [0.374 / 0.25, -0.374 / 0.25]
+        );
+        assert_eq!(slopes([beyond, -beyond], [-0.125, 0.125]), [1.0, -1.0]);
+        assert_eq!(
+            slopes([0.125, -0.125], [-near, near]),
+            [0.374 / 0.25, -0.374 / 0.25]
+        );
+        assert_eq!(slopes([0.125, -0.125], [-beyond, beyond]), [1.0, -1.0]);
+    }
+
+    /// At the end of a parameter's range there is no step to one side.
+    #[test]
+    fn a_slope_at_the_end_of_a_range_is_that_of_the_side_within() {
+        let mut matrix = DMatrix::zeros(1, 2);
+        slope(
+            (&[0.0], 0.0),
+            (&[-0.5], -0.125),
+            matrix.view_mut((0, 0), (1, 1)),
+        );
+        slope(
+            (&[0.5], 0.25),
+            (&[0.0], 0.0),
+            matrix.view_mut((0, 1), (1, 1)),
+        );
+        assert_eq!([matrix[0], matrix[1]], [4.0, 2.0]);
+    }
+
+    /// An angle that goes once round between two paths has not changed by 2π.
+    #[test]
+    fn changes_of_angles_have_no_whole_turns() {
+        let drops = [];
+        let model = crate::fit::tests::model();
+        let task = Task::new(model, &drops, Loss::Square);
+        let point = Point {
+            shared: Shared::default(),
+            starts: Vec::new(),
+        };
+        let weighing = Weighing {
+            frames: Vec::new(),
+            sigma: [0.5, 0.25, 0.125],
+        };
+        let problem = Problem::new(&task, weighing, &[], point);
+        let of = |coordinate, by| Deviation {
+            drop: 0,
+            frame: 0,
+            coordinate,
+            by,
+        };
+        let change = |coordinate| problem.change(&of(coordinate, 3.0), &of(coordinate, -3.0));
+        assert_eq!(change(Coordinate::X), 12.0);
+        assert_eq!(change(Coordinate::Z), 24.0);
+        let angle = change(Coordinate::Theta);
+        assert!((angle - (6.0 - std::f64::consts::TAU) / 0.125).abs() < 1e-14);
+    }
+}

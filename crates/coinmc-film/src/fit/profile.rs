@@ -166,3 +166,24 @@ fn between(inside: (f64, f64), outside: (f64, f64)) -> f64 {
     };
     inside.0 + share * (outside.0 - inside.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Through (2, ½) and (4, 1½), (4, 1) lies halfway, and (−1, ¾) and (−2, 1¾) have 1 at a quarter of the way.
+    #[test]
+    fn the_next_value_is_where_the_line_says() {
+        assert_eq!(between((2.0, 0.5), (4.0, 1.5)), 3.0);
+        assert_eq!(between((-1.0, 0.75), (-2.0, 1.75)), -1.25);
+        assert_eq!(between((0.0, 0.0), (8.0, 1.0)), 7.2);
+    }
+
+    /// Beyond a leap the line would come back to the same end for ever.
+    #[test]
+    fn the_next_value_keeps_away_from_both_ends() {
+        assert_eq!(between((0.0, 0.875), (10.0, 1e6)), 1.0);
+        assert_eq!(between((0.0, -1e6), (10.0, 1.0)), 9.0);
+        assert_eq!(between((2.0, 0.5), (6.0, f64::INFINITY)), 4.0);
+    }
+}

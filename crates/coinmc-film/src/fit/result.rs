@@ -329,6 +329,7 @@ fn remarks(fit: &Fit, loss: Loss) -> Vec<Remark> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::tests::blank;
 
     /// Of n equal residuals n − 1 pairs agree, of alternating ones all differ; a gap or another drop parts them.
     #[test]
@@ -350,5 +351,89 @@ mod tests {
         assert_eq!(of(|_| 0.5, |i| 2 * i, |_| 0), 0.0);
         assert_eq!(of(|_| 0.5, |i| i, |i| i / 3), 0.6);
         assert_eq!(of(|_| 0.0, |i| i, |_| 0), 0.0);
+    }
+
+    /// An error that later frames make less than .7 of what it was is not believed.
+    #[test]
+    fn late_frames_may_narrow_a_start_only_so_far() {
+        assert_eq!(trusted(0.75, Some(1.0)), 0.75);
+        assert_eq!(trusted(0.65, Some(1.0)), 1.0);
+        assert_eq!(trusted(3.0, Some(2.0)), 3.0);
+        assert_eq!(trusted(0.1, None), 0.1);
+    }
+
+    fn noise_of(n: usize, correlation: f64) -> Noise {
+        Noise {
+            coordinate: Coordinate::X,
+            n,
+            sigma: 1.0,
+            correlation,
+        }
+    }
+
+    /// Correlations of n independent residuals scatter by 1/sqrt(n); more than four times that is told.
+    #[test]
+    fn correlated_residuals_are_told() {
+        let told = |n, correlation| {
+            let fit = Fit {
+                noise: vec![noise_of(n, correlation)],
+                ..blank()
+            };
+            !remarks(&fit, Loss::Square).is_empty()
+        };
+        assert_eq!(
+            [
+                told(100, 0.39),
+                told(100, 0.41),
+                told(1600, 0.11),
+                told(1600, 0.09)
+            ],
+            [false, true, true, false]
+        );
+    }
+
+    /// Residuals of more than five standard deviations are counted, unless the loss expects them.
+    #[test]
+    fn outliers_are_counted() {
+        let residuals = [0.1, -5.1, 4.9, 7.0].map(|standardised| Residual {
+            drop: 0,
+            frame: 0,
+            time_s: 0.0,
+            coordinate: Coordinate::Z,
+            seen: 0.0,
+            residual: 0.0,
+            standardised,
+        });
+        let fit = Fit {
+            residuals: residuals.to_vec(),
+            ..blank()
+        };
+        assert_eq!(remarks(&fit, Loss::Square), [Remark::Outliers { count: 2 }]);
+        assert_eq!(remarks(&fit, Loss::Huber), []);
+        assert_eq!(remarks(&blank(), Loss::Square), []);
+    }
+
+    /// An interval that ends on both sides around the end of a parameter's range, and one that does not.
+    #[test]
+    fn parameters_at_the_end_of_their_range_are_told() {
+        let remark = |value, hi| {
+            let estimate = Estimated {
+                parameter: Parameter::Restitution,
+                value,
+                std_error: None,
+                lo: Some(0.0),
+                hi,
+            };
+            let fit = Fit {
+                parameters: vec![estimate],
+                ..blank()
+            };
+            remarks(&fit, Loss::Square)
+        };
+        let e = Parameter::Restitution;
+        assert_eq!(remark(0.5, Some(0.75)), []);
+        assert_eq!(remark(0.0, Some(0.75)), [Remark::AtTheEnd(e)]);
+        assert_eq!(remark(1.0, Some(1.0)), [Remark::AtTheEnd(e)]);
+        assert_eq!(remark(1.0, None), [Remark::Undetermined(e)]);
     }
 }

@@ -122,7 +122,7 @@ pub(crate) fn search<'a>(
 }
 
 /// Searches further around a minimum that leaves more than noise.
-fn search_further(mut minimum: Problem<'_>) -> Problem<'_> {
+pub(super) fn search_further(mut minimum: Problem<'_>) -> Problem<'_> {
     if poorness(&minimum) < POOR * POOR {
         return minimum;
     }
@@ -356,3 +356,6 @@ fn grid(model: &Model, shared: &Shared, free: &[Parameter]) -> Vec<Shared> {
     }
     points
 }
+
+#[cfg(test)]
+mod tests;

@@ -21,17 +21,20 @@ pub(crate) fn quantile(confidence: f64, degrees: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Abramowitz & Stegun, table 26.10, rounded to three decimals there.
+    /// SciPy 1.17, `scipy.stats.t.ppf(0.5 + 0.5 * confidence, degrees)`. The series is cut off after ν⁻⁴.
     #[test]
-    fn the_printed_table_is_reproduced() {
-        for (confidence, degrees, t) in [
-            (0.95, 10.0, 2.228),
-            (0.95, 30.0, 2.042),
-            (0.95, 120.0, 1.980),
-            (0.99, 20.0, 2.845),
-            (0.99, 1e9, 2.576),
+    fn the_exact_quantiles_are_reproduced() {
+        for (confidence, degrees, t, error) in [
+            (0.95, 10.0, 2.228_138_851_986, 1e-5),
+            (0.90, 10.0, 1.812_461_122_812, 1e-5),
+            (0.50, 15.0, 0.691_196_948_958, 1e-6),
+            (0.99, 20.0, 2.845_339_709_786, 1e-5),
+            (0.99, 30.0, 2.749_995_653_567, 1e-6),
+            (0.95, 30.0, 2.042_272_456_301, 1e-7),
+            (0.95, 120.0, 1.979_930_405_082, 1e-10),
         ] {
-            assert!((quantile(confidence, degrees) - t).abs() < 6e-4);
+            let found = quantile(confidence, degrees);
+            assert!((found - t).abs() < error, "{confidence} {degrees}: {found}");
         }
     }
 }

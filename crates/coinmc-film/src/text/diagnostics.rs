@@ -229,3 +229,75 @@ pub(super) fn quoted(text: &str) -> String {
     let shown = shown.replace("\\\"", "\"").replace("\\'", "'");
     format!("`{shown}{more}`")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Short lines are quoted whole, and the mark lies where it was.
+    #[test]
+    fn a_short_line_is_quoted_whole() {
+        let text = "0.1\tO.19\t2";
+        assert_eq!(excerpt(text, 4, 8), ("0.1 O.19 2".to_owned(), 4..8));
+        let (line, mark) = excerpt("θθ x", 5, 6);
+        assert_eq!((line.as_str(), &line[mark]), ("θθ x", "x"));
+    }
+
+    /// Of a long one 80 characters before the mark and 80 from there on, however many bytes they take.
+    #[test]
+    fn a_long_line_is_quoted_around_the_mark() {
+        for (letter, bytes) in [("a", 1), ("é", 2)] {
+            let text = [&letter.repeat(500), "mark", &letter.repeat(500)].concat();
+            let (line, mark) = excerpt(&text, 500 * bytes, 500 * bytes + 4);
+            assert_eq!(&line[mark.clone()], "mark");
+            assert_eq!(line[..mark.start].chars().count(), 81);
+            assert_eq!(line[mark.start..].chars().count(), 80);
+            // a line of just so many is not cut
+            let text = [&letter.repeat(80), "mark", &letter.repeat(76)].concat();
+            assert_eq!(excerpt(&text, 80 * bytes, 80 * bytes + 4).0, text);
+            let wide = "m".repeat(300);
+            let (line, mark) = excerpt(&wide, 0, 300);
+            assert_eq!((line.len(), mark), (80, 0..80));
+        }
+    }
+
+    /// Fifty are kept, in order of their places, and the rest counted; those of other files follow.
+    #[test]
+    fn problems_beyond_fifty_are_counted() {
+        let lines = ["a b"; 60];
+        let mut problems = Problems::new("a.txt", &lines);
+        assert!(problems.is_empty());
+        for line in (0..60).rev() {
+            problems.add(line, 2..3, "wrong".to_owned(), None);
+        }
+        assert!(!problems.is_empty());
+        let mut all = problems.finish();
+        assert_eq!((all.problems().len(), all.problems()[0].line), (50, 11));
+        assert_eq!(all.problems()[0].column, 3);
+        let text = all.to_string();
+        assert_eq!(text.matches("wrong").count(), 50);
+        assert!(
+            text.contains("a.txt:11:3") && text.ends_with("\n\nand 10 more"),
+            "{text}"
+        );
+        let other = Diagnostics::of_file("b.txt", "empty", None);
+        assert!(!other.to_string().contains("more"));
+        all.append(other);
+        assert_eq!(all.problems().len(), 51);
+        assert!(all.to_string().contains("b.txt"));
+        all.append(all.clone());
+        assert!(all.to_string().ends_with("and 20 more"));
+    }
+
+    /// Names of files may hold anything; quotes and backslashes are printed as they are.
+    #[test]
+    fn control_characters_of_names_are_escaped() {
+        assert_eq!(
+            printable("C:\\it's \"a\"\u{7}\n"),
+            "C:\\it's \"a\"\\u{7}\\n"
+        );
+        assert_eq!(quoted("it's \u{1b}\"a\""), "`it's \\u{1b}\"a\"`");
+        assert_eq!(quoted(&"x".repeat(40)), format!("`{}`", "x".repeat(40)));
+        assert_eq!(quoted(&"x".repeat(41)), format!("`{}…`", "x".repeat(40)));
+    }
+}

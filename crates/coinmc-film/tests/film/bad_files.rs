@@ -1,6 +1,6 @@
 //! Bad files: all problems are reported at once, each with its position, and nothing panics.
 
-use coinmc_film::text::{Choice, MAX_BYTES, MAX_LINE, Problem, read};
+use coinmc_film::text::{Choice, MAX_BYTES, MAX_COLUMNS, MAX_LINE, Problem, read};
 
 fn problems(bytes: &[u8]) -> Vec<Problem> {
     let found = read("bad.txt", bytes, &Choice::default()).expect_err("bad");
@@ -69,4 +69,53 @@ fn sizes_are_bounded_and_foreign_bytes_are_harmless() {
     assert_eq!(endless[0].line, 4);
     assert!(endless[0].message.contains("far out of range"));
     problems("t\ty\tangle\n0\t\u{1b}[31m\t1\n".as_bytes());
+}
+
+/// A cell that is not a number is marked where it stands, and one that is missing at the end of its line.
+#[test]
+fn a_wrong_cell_is_marked_alone() {
+    let found = problems(b"t\ty\tangle\n0\t12x4\t1\n0.1\t2\t3\n");
+    let text = found[0].message.clone();
+    assert_eq!(
+        (found[0].line, found[0].column, text.as_str()),
+        (2, 3, "`12x4` is not a number")
+    );
+    let quote = format!("{:?}", found[0]);
+    assert!(quote.contains("2..6"), "{quote}");
+}
+
+/// Up to the limits and no further: of bytes, of a line, of columns.
+#[test]
+fn the_limits_themselves_are_allowed() {
+    let table = |columns: usize| {
+        let names: Vec<String> = (3..columns).map(|i| format!("c{i}")).collect();
+        let header = [&["t".into(), "y".into(), "angle".into()], &names[..]]
+            .concat()
+            .join("\t");
+        let line = |t: &str| {
+            [&[t, "1", "2"], &vec!["0"; columns - 3][..]]
+                .concat()
+                .join("\t")
+        };
+        [header, line("0"), line("1"), String::new()].join("\n")
+    };
+    assert!(read("wide", table(MAX_COLUMNS).as_bytes(), &Choice::default()).is_ok());
+    assert!(
+        problems(table(MAX_COLUMNS + 1).as_bytes())[0]
+            .message
+            .contains("columns")
+    );
+    let long = |length: usize| {
+        let end = "1\t2\n1\t1\t2\n";
+        ["t\ty\tangle\n0", &" ".repeat(length - 5), "\t", end].concat()
+    };
+    assert!(read("long", long(MAX_LINE).as_bytes(), &Choice::default()).is_ok());
+    assert!(
+        problems(long(MAX_LINE + 1).as_bytes())[0]
+            .message
+            .contains("bytes")
+    );
+    let mut full = table(3).into_bytes();
+    full.resize(MAX_BYTES, b'\n');
+    assert!(read("full", &full, &Choice::default()).is_ok());
 }
