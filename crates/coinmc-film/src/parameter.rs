@@ -226,7 +226,7 @@ impl Shared {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use coinmc_flat::HalfSine;
+    use coinmc_flat::{GaekSukhov, HalfSine, Lever};
 
     /// The stiffness of a contact is proportional to both moduli together, whatever Poisson's ratios are.
     #[test]
@@ -297,5 +297,91 @@ mod tests {
         let clamped = wild.clamped();
         let of = Parameter::ALL.map(|one| clamped.get(one));
         assert_eq!(of, [1.0, 10.0, 1e6, 1.0, 1e9, 1e6, 1e12]);
+    }
+
+    /// A law's own numbers are where the fit begins; those that it does not have stay.
+    #[test]
+    fn a_law_brings_its_own_parameters() {
+        let given = Shared {
+            eta_n_s: 7.0,
+            time_s: 0.25,
+            peak_n: 3.0,
+            stiffness: 5.0,
+            ..Shared::default()
+        };
+        let own = |law| {
+            let shared = given.of(law);
+            [
+                shared.eta_n_s,
+                shared.time_s,
+                shared.peak_n,
+                shared.stiffness,
+            ]
+        };
+        let pulse = |time, peak_n| Law::HalfSine(HalfSine { time, peak_n });
+        assert_eq!(own(Law::Moreau), [7.0, 0.25, 3.0, 1.0]);
+        assert_eq!(
+            own(pulse(PulseTime::Given(0.5), None)),
+            [7.0, 0.5, 3.0, 1.0]
+        );
+        assert_eq!(
+            own(pulse(PulseTime::Given(0.5), Some(9.0))),
+            [7.0, 0.5, 9.0, 1.0]
+        );
+        let law = GaekSukhov {
+            eta_n_s: 2.0,
+            lever: Lever::Height,
+        };
+        assert_eq!(own(Law::GaekSukhov(law)), [2.0, 0.25, 3.0, 1.0]);
+        // and they go back into the law
+        let applied = given.applied(pulse(PulseTime::Given(0.5), Some(9.0)));
+        assert_eq!(applied, pulse(PulseTime::Given(0.25), Some(3.0)));
+        assert_eq!(
+            given.applied(pulse(PulseTime::Given(0.5), None)),
+            pulse(PulseTime::Given(0.25), None)
+        );
+        let applied = given.applied(Law::GaekSukhov(law));
+        assert_eq!(
+            applied,
+            Law::GaekSukhov(GaekSukhov {
+                eta_n_s: 7.0,
+                lever: Lever::Height
+            })
+        );
+        assert_eq!(given.applied(Law::Moreau), Law::Moreau);
+    }
+
+    /// Each law has the parameters that it hangs on, and every law a floor.
+    #[test]
+    fn laws_have_their_parameters() {
+        use Parameter::{Eta, Floor, Friction, Peak, PulseTime as Time, Restitution, Stiffness};
+        let materials = Materials {
+            coin_young_pa: 3e9,
+            coin_poisson: 0.35,
+            surface_young_pa: 1e10,
+            surface_poisson: 0.3,
+            length_m: 0.02,
+        };
+        let pulse = |time, peak_n| parameters(Law::HalfSine(HalfSine { time, peak_n }));
+        let (given, contact) = (PulseTime::Given(1e-3), PulseTime::Contact(materials));
+        assert_eq!(parameters(Law::Moreau), [Restitution, Friction, Floor]);
+        assert_eq!(pulse(given, None), [Restitution, Friction, Time, Floor]);
+        assert_eq!(
+            pulse(given, Some(1.0)),
+            [Restitution, Friction, Time, Peak, Floor]
+        );
+        assert_eq!(
+            pulse(contact, None),
+            [Restitution, Friction, Stiffness, Floor]
+        );
+        assert_eq!(
+            pulse(contact, Some(1.0)),
+            [Restitution, Friction, Peak, Stiffness, Floor]
+        );
+        let law = GaekSukhov {
+            eta_n_s: 2.0,
+            lever: Lever::Height,
+        };
+        assert_eq!(parameters(Law::GaekSukhov(law)), [Restitution, Eta, Floor]);
     }
 }

@@ -23,8 +23,8 @@ pub fn residuals_svg(fit: &Fit) -> String {
     let rows: Vec<Coordinate> = fit.noise.iter().map(|noise| noise.coordinate).collect();
     let height = TOP + ROW * rows.len() as f64 + BOTTOM;
     let starts = starts(fit);
-    let (first, last) = (0.0, span(fit, &starts));
-    let x = |t: f64| LEFT + (t - first) / (last - first) * (WIDTH - LEFT - RIGHT);
+    let longest = span(fit, &starts);
+    let x = |t: f64| LEFT + t / longest * (WIDTH - LEFT - RIGHT);
     let mut svg = String::new();
     let _ = writeln!(
         svg,
@@ -44,7 +44,7 @@ pub fn residuals_svg(fit: &Fit) -> String {
             point(&mut svg, fit, residual, x(since), y(residual.standardised));
         }
     }
-    axis(&mut svg, (first, last), height, &x);
+    axis(&mut svg, longest, height, &x);
     svg + "</svg>\n"
 }
 
@@ -126,10 +126,10 @@ fn point(svg: &mut String, fit: &Fit, residual: &Residual, x: f64, y: f64) {
     );
 }
 
-fn axis(svg: &mut String, (first, last): (f64, f64), height: f64, x: &impl Fn(f64) -> f64) {
+fn axis(svg: &mut String, longest: f64, height: f64, x: &impl Fn(f64) -> f64) {
     let bottom = height - BOTTOM;
     for fifth in 0..=5 {
-        let t = first + (last - first) * f64::from(fifth) / 5.0;
+        let t = longest * f64::from(fifth) / 5.0;
         let _ = writeln!(
             svg,
             "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\" fill=\"#555555\">{t:.2}</text>",

@@ -415,6 +415,19 @@ mod tests {
         assert_eq!(slopes([0.125, -0.125], [-beyond, beyond]), [1.0, -1.0]);
     }
 
+    /// Near the end of a range one step is shorter: changes are compared by the way that they take. From slopes of 2 and 3
+    /// over ways of 2 : 1 the central difference makes 2⅓.
+    #[test]
+    fn slopes_are_compared_by_their_steps() {
+        let mut matrix = DMatrix::zeros(1, 1);
+        slope(
+            (&[0.5], 0.25),
+            (&[-0.375], -0.125),
+            matrix.view_mut((0, 0), (1, 1)),
+        );
+        assert!((matrix[0] - 7.0 / 3.0).abs() < 1e-15);
+    }
+
     /// At the end of a parameter's range there is no step to one side.
     #[test]
     fn a_slope_at_the_end_of_a_range_is_that_of_the_side_within() {

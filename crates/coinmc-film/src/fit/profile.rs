@@ -170,6 +170,11 @@ fn between(inside: (f64, f64), outside: (f64, f64)) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::Loss;
+    use crate::fit::covariance::spread;
+    use crate::fit::problem::Task;
+    use crate::fit::tests::{at_the_truth, model};
+    use crate::synthetic::Synthetic;
 
     /// Through (2, ½) and (4, 1½), (4, 1) lies halfway, and (−1, ¾) and (−2, 1¾) have 1 at a quarter of the way.
     #[test]
@@ -185,5 +190,91 @@ mod tests {
         assert_eq!(between((0.0, 0.875), (10.0, 1e6)), 1.0);
         assert_eq!(between((0.0, -1e6), (10.0, 1.0)), 9.0);
         assert_eq!(between((2.0, 0.5), (6.0, f64::INFINITY)), 4.0);
+    }
+
+    /// A profile of the restitution around the truth.
+    fn profiled(test: impl Fn(&Profile, &Problem)) {
+        let film = Synthetic::default();
+        let drops = [film.film(&model()).unwrap()];
+        let task = Task::new(model(), &drops, Loss::Square);
+        let free = [
+            Parameter::Restitution,
+            Parameter::Friction,
+            Parameter::PulseTime,
+        ];
+        let mut best = at_the_truth(&task, &free);
+        best.point.shared = film.shared;
+        best.point.starts[0] = film.start;
+        best.weighing.frames[0] = 100;
+        best.weighing.sigma = [5e-4, 5e-4, 0.5_f64.to_radians()];
+        let best = best.minimise(40);
+        let mut spread = spread(&best).unwrap();
+        spread.factor = 1.5;
+        spread.inflation = vec![2.0; best.unknowns.len()];
+        let profile = Profile {
+            best: &best,
+            spread: &spread,
+            t: 2.0,
+        };
+        test(&profile, &best);
+    }
+
+    /// Twice the rise of the cost is compared with t² times the factors of the error: 12 here, so a rise of 6.
+    #[test]
+    fn a_value_lies_within_while_the_cost_has_risen_little() {
+        profiled(|profile, best| {
+            let mut at = best.clone();
+            let rise = |at: &Problem| at.cost() - best.cost();
+            while rise(&at) < 6.0 {
+                assert!(profile.is_inside(0, &at));
+                at.point.starts[0][0] += 1e-5;
+            }
+            assert!(rise(&at) < 6.5 && !profile.is_inside(0, &at));
+        });
+    }
+
+    /// A parameter that the law does not use changes nothing, up to the end of its range.
+    #[test]
+    fn what_changes_nothing_has_no_end() {
+        profiled(|profile, _| {
+            for direction in [-1.0, 1.0] {
+                assert!(matches!(profile.end(2, direction), End::Open));
+                // 2 standard errors, of a variance that is three times as large
+                let End::At(end) = profile.end(0, direction) else {
+                    panic!("no end")
+                };
+                let error = profile.spread.errors[0].unwrap();
+                let value = profile.best.point.shared.restitution;
+                let arm = direction * (end - value) / (2.0 * 3.0_f64.sqrt() * error);
+                assert!((arm - 1.0).abs() < 0.1, "{arm}");
+            }
+        });
+    }
+
+    /// The others follow a held parameter along the valley of the cost: a line on which the cost rises least.
+    #[test]
+    fn the_valley_is_where_the_cost_rises_least() {
+        profiled(|profile, best| {
+            for j in [0, 1] {
+                let valley = &profile.spread.valleys[j];
+                assert!((valley[j] - 1.0).abs() < 1e-12);
+                let along = |direction: &[f64]| {
+                    let mut moved = best.clone();
+                    moved.shift(direction, 1e-4);
+                    moved.cost() - best.cost()
+                };
+                let least = along(valley);
+                for other in (0..valley.len())
+                    .filter(|other| *other != j && profile.spread.errors[*other].is_some())
+                {
+                    for by in [-0.02, 0.02] {
+                        let mut off = valley.clone();
+                        off[other] += by;
+                        assert!(along(&off) > least, "{j} {other} {by}");
+                    }
+                }
+            }
+            assert!(profile.spread.valleys[2].iter().all(|part| *part == 0.0));
+        });
     }
 }

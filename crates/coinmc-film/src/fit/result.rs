@@ -358,6 +358,7 @@ mod tests {
     fn late_frames_may_narrow_a_start_only_so_far() {
         assert_eq!(trusted(0.75, Some(1.0)), 0.75);
         assert_eq!(trusted(0.65, Some(1.0)), 1.0);
+        assert_eq!(trusted(1.3, Some(2.0)), 2.0);
         assert_eq!(trusted(3.0, Some(2.0)), 3.0);
         assert_eq!(trusted(0.1, None), 0.1);
     }

@@ -4,7 +4,9 @@
 use super::covariance::{is_determined, spread};
 use super::problem::{Point, Problem, Task, Unknown, Weighing};
 use super::search::search_further;
-use super::{Fit, Loss, Options, Remark, converge_noise, fit, hop};
+use super::{
+    Fit, FitError, Loss, MAX_DROPS, MAX_FRAMES, Options, Remark, check, converge_noise, fit, hop,
+};
 use crate::drop::{Coordinate, FilmedDrop};
 use crate::law::Model;
 use crate::parameter::{Parameter, Shared};
@@ -12,6 +14,7 @@ use crate::path::start_scales;
 use crate::synthetic::Synthetic;
 use coinmc_core::Coin;
 use coinmc_flat::Law;
+use levenberg_marquardt::LeastSquaresProblem;
 
 pub(super) const SIGMA: [f64; 3] = [2e-4, 5e-4, 3e-3];
 pub(super) const START: [f64; 6] = [0.1, 0.2, 5.0, 0.3, 0.4, 7.0];
@@ -395,4 +398,102 @@ fn the_error_of_a_robust_fit_is_hubers() {
         expected > 1.05 && (found / expected - 1.0).abs() < 1e-12,
         "{found} {expected}"
     );
+}
+
+/// Which fits are refused before anything is computed: at the limits themselves none.
+#[test]
+fn only_fits_beyond_the_limits_are_refused() {
+    let drop = aloft(1, 0.05);
+    let checked = |drops: &[FilmedDrop], options: &Options| {
+        let task = Task::new(model(), drops, Loss::Square);
+        check(&task, options)
+    };
+    let options = Options::default();
+    let few = |count| vec![drop.clone(); count];
+    assert_eq!(checked(&few(1), &options), Ok(()));
+    assert_eq!(checked(&few(MAX_DROPS), &options), Ok(()));
+    assert_eq!(checked(&few(0), &options), Err(FitError::Drops(0)));
+    assert_eq!(checked(&few(65), &options), Err(FitError::Drops(65)));
+    assert_eq!(checked(&few(70), &options), Err(FitError::Drops(70)));
+    for (confidence, fine) in [
+        (0.0, false),
+        (1.0, false),
+        (1.5, false),
+        (-0.5, false),
+        (f64::NAN, false),
+        (0.01, true),
+    ] {
+        let options = Options {
+            confidence,
+            ..Options::default()
+        };
+        assert_eq!(checked(&few(1), &options).is_ok(), fine, "{confidence}");
+    }
+    let long = |count: usize| {
+        let frames = drop.frames.iter().copied().cycle().take(count).collect();
+        FilmedDrop {
+            name: "long".to_owned(),
+            frames,
+        }
+    };
+    let options = Options {
+        free: Vec::new(),
+        ..Options::default()
+    };
+    assert_eq!(checked(&[long(MAX_FRAMES)], &options), Ok(()));
+    let too_long = FitError::TooLong {
+        name: "long".to_owned(),
+        frames: MAX_FRAMES + 1,
+        max: MAX_FRAMES,
+    };
+    assert_eq!(checked(&[long(MAX_FRAMES + 1)], &options), Err(too_long));
+    // 3 coordinates of 1,111,111 frames in 12 columns are the last to have fewer than 40 million derivatives
+    let two = |frames| checked(&vec![long(frames); 8], &options);
+    assert_eq!(two(34_722), Ok(()));
+    assert_eq!(two(34_723), Err(FitError::TooLarge { frames: 8 * 34_723 }));
+}
+
+/// What the optimiser is told: half the sum of squares of its residuals is the cost, and its derivatives are those of
+/// its residuals, of points that Huber's loss bends, too.
+#[test]
+fn the_optimiser_sees_the_cost_and_its_derivatives() {
+    let mut drops = [aloft(8, 0.2)];
+    for frame in drops[0].frames.iter_mut().step_by(5) {
+        frame.seen[1] = frame.seen[1].map(|z| z + 5e-3);
+    }
+    for loss in [Loss::Square, Loss::Huber] {
+        let task = Task::new(model(), &drops, loss);
+        let problem = at_the_truth(&task, &[]);
+        let residuals = problem.residuals().unwrap();
+        assert!((0.5 * residuals.norm_squared() / problem.cost() - 1.0).abs() < 1e-12);
+        let jacobian = problem.jacobian().unwrap();
+        for j in 0..6 {
+            let mut direction = [0.0; 6];
+            direction[j] = 1.0;
+            let at = |by: f64| {
+                let mut moved = problem.clone();
+                moved.shift(&direction, by);
+                moved.residuals().unwrap()
+            };
+            // no residual lies within this step of the knee
+            let by = 1e-6;
+            let slopes = (at(by) - at(-by)) / (2.0 * by);
+            let error = (slopes - jacobian.column(j)).norm() / jacobian.column(j).norm();
+            assert!(error < 1e-4, "{loss:?} {j}: {error}");
+        }
+    }
+}
+
+/// Where x was never marked, where the coin began is not asked for; its speed changes what friction does.
+#[test]
+fn a_place_that_was_not_marked_is_not_fitted() {
+    let mut drops = [aloft(1, 0.05), aloft(2, 0.05)];
+    for frame in &mut drops[0].frames {
+        frame.seen[0] = None;
+    }
+    let task = Task::new(model(), &drops, Loss::Square);
+    let of_first = (1..6).map(|place| Unknown::Start(0, place));
+    let of_second = (0..6).map(|place| Unknown::Start(1, place));
+    let expected: Vec<Unknown> = of_first.chain(of_second).collect();
+    assert_eq!(at_the_truth(&task, &[]).unknowns, expected);
 }

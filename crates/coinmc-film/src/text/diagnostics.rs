@@ -182,13 +182,10 @@ impl<'a> Problems<'a> {
 
 /// A printable excerpt of a line around the mark, and the position of the mark in it.
 fn excerpt(text: &str, start: usize, end: usize) -> (String, Range<usize>) {
-    let mut from = 0;
-    if text[..start].chars().count() > MAX_QUOTE / 2 {
-        from = text[..start]
-            .char_indices()
-            .nth_back(MAX_QUOTE / 2)
-            .map_or(0, |(i, _)| i);
-    }
+    let from = text[..start]
+        .char_indices()
+        .nth_back(MAX_QUOTE / 2)
+        .map_or(0, |(i, _)| i);
     let to = text[start..]
         .char_indices()
         .nth(MAX_QUOTE / 2)

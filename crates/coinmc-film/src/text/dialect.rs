@@ -107,15 +107,55 @@ pub(super) fn cell(text: &str, decimal_comma: bool) -> Cell {
         ('.', ',')
     };
     if digits.contains(other) {
-        let once = digits.matches(other).count() == 1 && !digits.contains(mark);
-        let plain = digits.replace(other, ".");
-        return match plain.parse::<f64>() {
-            Ok(value) if once && value.is_finite() => Cell::OtherMark,
+        // a number with several marks does not parse
+        return match digits.replace(other, ".").parse::<f64>() {
+            Ok(value) if value.is_finite() => Cell::OtherMark,
             _ => Cell::Wrong,
         };
     }
     match digits.replace(mark, ".").parse::<f64>() {
         Ok(value) if value.is_finite() => Cell::Number(value, degrees),
         _ => Cell::Wrong,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_numbers_or_say_why_not() {
+        for (text, comma, expected) in [
+            ("1.25E-3", false, Cell::Number(1.25e-3, false)),
+            ("\"-2,5 °\"", true, Cell::Number(-2.5, true)),
+            (" NaN ", false, Cell::Empty),
+            ("\u{FFFD}", true, Cell::Empty),
+            ("1,5", false, Cell::OtherMark),
+            ("1.5", true, Cell::OtherMark),
+            ("1,5,0", false, Cell::Wrong),
+            ("1,000.5", false, Cell::Wrong),
+            ("1.000,5", true, Cell::Wrong),
+            ("1,0e999", false, Cell::Wrong),
+            ("1e999", false, Cell::Wrong),
+            ("inf", false, Cell::Wrong),
+            ("0x1", false, Cell::Wrong),
+        ] {
+            assert_eq!(cell(text, comma), expected, "{text}");
+        }
+    }
+
+    /// Bytes are counted from the beginning of the line, at the first letter of a cell.
+    #[test]
+    fn cells_know_where_they_stand() {
+        let cells = |delimiter: Delimiter, line| delimiter.cells(line);
+        assert_eq!(
+            cells(Delimiter::Semicolon, "a; bé ;;d"),
+            [(0, "a"), (3, "bé"), (8, ""), (9, "d")]
+        );
+        assert_eq!(cells(Delimiter::Blank, "  a   b "), [(2, "a"), (6, "b")]);
+        assert_eq!(
+            cells(Delimiter::Tab, "a\t  \tb"),
+            [(0, "a"), (2, ""), (5, "b")]
+        );
     }
 }

@@ -96,18 +96,18 @@ impl Header {
     /// column of each track.
     fn name_tracks(&mut self, line: &str) {
         let names = self.delimiter.cells(line);
-        let given = names.iter().filter(|(_, name)| !name.is_empty()).count();
-        let mut track = String::new();
+        let single = match names[..] {
+            [(_, name)] | [(_, name), (_, "")] | [(_, ""), (_, name)] => Some(name),
+            _ => None,
+        };
+        let mut track = single.unwrap_or("");
         for (i, (column, _)) in self.columns.iter_mut().enumerate() {
-            if given == 1 && self.delimiter.cells(line).len() <= 2 {
-                line.trim()
-                    .trim_matches(self.delimiter.character())
-                    .clone_into(&mut track);
-            } else if let Some((_, name)) = names.get(i).filter(|(_, name)| !name.is_empty()) {
-                (*name).clone_into(&mut track);
+            let above = names.get(i).filter(|(_, name)| !name.is_empty());
+            if let (None, Some((_, name))) = (single, above) {
+                track = name;
             }
             if !column.is_time() {
-                column.track.clone_from(&track);
+                track.clone_into(&mut column.track);
             }
         }
     }
@@ -129,5 +129,58 @@ fn column(text: &str) -> Column {
         track: String::new(),
         name: name.to_owned(),
         unit,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tracks(lines: &[&str]) -> Vec<String> {
+        let header = header(lines).expect("a header");
+        let columns = header.columns.into_iter();
+        columns.map(|(column, _)| column.full_name()).collect()
+    }
+
+    /// One name, with or without a delimiter beside it, is that of all columns but the time, wherever that stands.
+    #[test]
+    fn a_single_name_is_that_of_all_columns() {
+        for above in ["mass A", "mass A\t", "\tmass A", "  mass A"] {
+            assert_eq!(
+                tracks(&[above, "x\ty\tt"]),
+                ["mass A.x", "mass A.y", "t"],
+                "{above:?}"
+            );
+        }
+        assert_eq!(tracks(&["x\ty\tt"]), ["x", "y", "t"]);
+    }
+
+    /// Several stand above the first column of each track.
+    #[test]
+    fn several_names_begin_their_tracks() {
+        let found = tracks(&["#multi:", "\tA\t\tB\t", "t\tx\ty\tx\ty"]);
+        assert_eq!(found, ["t", "A.x", "A.y", "B.x", "B.y"]);
+        let found = tracks(&["A\tB", "t\tx\ty"]);
+        assert_eq!(found, ["t", "B.x", "B.y"]);
+    }
+
+    /// A unit stands in brackets after a name; brackets alone are a name.
+    #[test]
+    fn units_stand_in_brackets_after_a_name() {
+        for (text, name, unit) in [
+            ("y (cm)", "y", Some("cm")),
+            ("\"y [ cm ]\"", "y", Some("cm")),
+            ("y(°)", "y", Some("°")),
+            ("(cm)", "(cm)", None),
+            ("y cm)", "y cm)", None),
+            ("θ", "θ", None),
+        ] {
+            let column = column(text);
+            assert_eq!(
+                (column.name.as_str(), column.unit.as_deref()),
+                (name, unit),
+                "{text}"
+            );
+        }
     }
 }

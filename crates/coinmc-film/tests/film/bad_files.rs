@@ -1,6 +1,6 @@
 //! Bad files: all problems are reported at once, each with its position, and nothing panics.
 
-use coinmc_film::text::{Choice, MAX_BYTES, MAX_COLUMNS, MAX_LINE, Problem, read};
+use coinmc_film::text::{Choice, MAX_BYTES, MAX_COLUMNS, MAX_LINE, Problem, bytes_of, read};
 
 fn problems(bytes: &[u8]) -> Vec<Problem> {
     let found = read("bad.txt", bytes, &Choice::default()).expect_err("bad");
@@ -118,4 +118,48 @@ fn the_limits_themselves_are_allowed() {
     let mut full = table(3).into_bytes();
     full.resize(MAX_BYTES, b'\n');
     assert!(read("full", &full, &Choice::default()).is_ok());
+}
+
+/// A file that is too long is not read to its end, but far enough to tell.
+#[test]
+fn no_more_of_a_file_is_read_than_tells_that_it_is_too_long() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let path = folder.join("bytes_of.txt");
+    for (written, read) in [
+        (10, 10),
+        (MAX_BYTES, MAX_BYTES),
+        (MAX_BYTES + 5, MAX_BYTES + 1),
+    ] {
+        std::fs::write(&path, vec![b'a'; written]).unwrap();
+        let bytes = bytes_of(&path).unwrap();
+        assert!(bytes.len() == read && bytes.iter().all(|byte| *byte == b'a'));
+    }
+    std::fs::remove_file(&path).unwrap();
+    let error = bytes_of(folder).unwrap_err();
+    assert_eq!(error.kind(), std::io::ErrorKind::IsADirectory);
+}
+
+/// A column whose unit is not known is marked with its name and unit.
+#[test]
+fn a_wrong_unit_is_marked() {
+    let found = problems(b"t\ty (pixel)\tangle\n0\t1\t2\n");
+    assert_eq!((found[0].line, found[0].column), (1, 3));
+    let quote = format!("{:?}", found[0]);
+    assert!(quote.contains("2..11"), "{quote}");
+}
+
+/// Spaces do not show which cell is missing; other delimiters leave it out at the end.
+#[test]
+fn missing_cells_need_delimiters() {
+    let found = problems(b"t y angle x\n0 1 2 3\n0.1 1 2\n");
+    assert!(
+        found[0].message.contains("3 cells, but 4 columns"),
+        "{found:?}"
+    );
+    let fine = read(
+        "short",
+        b"t\ty\tangle\tx\n0\t1\t2\t3\n0.1\t1\t2\n",
+        &Choice::default(),
+    );
+    assert_eq!(fine.unwrap().drop.frames[1].seen[0], None);
 }

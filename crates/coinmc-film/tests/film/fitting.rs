@@ -241,6 +241,9 @@ fn residuals_are_written_completely_and_reproducibly() {
     assert_eq!(first, second);
     let csv = residuals_csv(std::slice::from_ref(&first));
     assert_eq!(csv.lines().count(), 1 + first.n);
+    for name in ["x_m", "z_m", "theta_rad"] {
+        assert_eq!(csv.matches(&format!(",{name},")).count(), first.n / 3);
+    }
     let svg = residuals_svg(&first);
     assert_eq!(svg.matches("<circle").count(), first.n);
     assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));

@@ -134,3 +134,55 @@ fn a_real_export_without_an_angle_is_rejected_only_for_that() {
     assert_eq!(z(&footage)[..2], [Some(0.37844), Some(0.37846)]);
     assert!((footage.drop.rate_hz() - 100.0).abs() < 1e-6);
 }
+
+/// The names by which results tell how a file was read.
+#[test]
+fn dialects_have_names() {
+    let delimiters = [
+        Delimiter::Tab,
+        Delimiter::Semicolon,
+        Delimiter::Comma,
+        Delimiter::Blank,
+    ];
+    assert_eq!(
+        delimiters.map(Delimiter::name),
+        ["tab", "semicolon", "comma", "blank"]
+    );
+    let encodings = [Encoding::Utf8, Encoding::Utf8Mark, Encoding::Latin1];
+    let names = ["UTF-8", "UTF-8 with byte order mark", "Latin-1"];
+    assert_eq!(encodings.map(Encoding::name), names);
+}
+
+/// Columns that are chosen are those of their track; what is not chosen is looked for in the same track first.
+#[test]
+fn columns_are_chosen_by_name() {
+    let text =
+        "#multi:\n\tA\t\tmass_B\t\t\nt\tx\ty\tx\ty\tangle\n0\t1\t2\t3\t4\t5\n1\t1\t2\t3\t4\t5\n";
+    let place = |x: Option<&str>, y: Option<&str>| {
+        let choice = Choice {
+            x: x.map(str::to_owned),
+            y: y.map(str::to_owned),
+            ..Choice::default()
+        };
+        let footage = read("two", text.as_bytes(), &choice);
+        footage.map(|footage| [0, 1].map(|c: usize| footage.drop.frames[0].seen[c].unwrap()))
+    };
+    assert_eq!(place(None, None), Ok([1.0, 2.0]));
+    assert_eq!(place(None, Some("mass B.y")), Ok([3.0, 4.0]));
+    assert_eq!(place(Some("a.x"), Some("mass_B.y")), Ok([1.0, 4.0]));
+    assert_eq!(place(Some("mass B.x"), None), Ok([3.0, 2.0]));
+    let problems = place(None, Some("C.y")).unwrap_err();
+    assert!(problems.to_string().contains("there is no column `C.y`"));
+}
+
+/// The decimal mark is that of the numbers, not of the names above them.
+#[test]
+fn names_do_not_tell_the_decimal_mark() {
+    let choice = Choice {
+        y: Some("y.1".to_owned()),
+        ..Choice::default()
+    };
+    let text = "t;y.1;angle\n0;0,25;1\n1;1;1\n";
+    let footage = read("named", text.as_bytes(), &choice).unwrap();
+    assert_eq!(z(&footage), [Some(0.25), Some(1.0)]);
+}
