@@ -254,7 +254,9 @@ mod tests {
         }
         drop.frames[100].seen[1] = None;
         assert_eq!(flight(&drop, GRAVITY, &noise).unwrap().frames, 200);
-        drop.frames.truncate(4);
+        drop.frames.truncate(MIN_FLIGHT);
+        assert_eq!(flight(&drop, GRAVITY, &noise).unwrap().frames, 5);
+        drop.frames.pop();
         assert!(flight(&drop, GRAVITY, &noise).is_none());
     }
 

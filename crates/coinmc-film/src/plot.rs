@@ -280,7 +280,14 @@ mod tests {
             [288.0 + 34.0]
         );
         assert_eq!(values(&svg, "time since the first frame", "x"), [384.0]);
-        assert_eq!(values(&svg, ">-4</text>", "x"), [58.0; 2]);
+        for tick in [-4, -2, 2, 4] {
+            let label = format!(">{tick}</text>");
+            assert_eq!(values(&svg, &label, "x"), [58.0; 2]);
+            let heights = values(&svg, &label, "y");
+            for (height, middle) in heights.into_iter().zip(&middles) {
+                assert!((height - (middle - 57.0 * f64::from(tick) / 5.0 + 4.0)).abs() < 0.051);
+            }
+        }
         for (name, middle) in [("x", middles[0]), ("z", middles[1])] {
             assert_eq!(
                 values(&svg, &format!(">{name}</text>"), "y"),

@@ -123,4 +123,18 @@ mod tests {
         let wild = Loss::Huber.scale(&residuals, 202.0);
         assert!(wild / clean < 2.1 && Loss::Square.scale(&residuals, 202.0) > 10.0 * clean);
     }
+
+    /// Ten times as large residuals have ten times the scale, however small they are.
+    #[test]
+    fn the_scale_has_the_unit_of_the_residuals() {
+        assert_eq!(Loss::Square.scale(&[3.0, -4.0], 1.0), 5.0);
+        assert_eq!(Loss::Huber.scale(&[0.0, 0.0], 1.0), 0.0);
+        let residuals = [0.5, -1.0, 2.0, -0.25, 9.0];
+        let unit = Loss::Huber.scale(&residuals, 4.0);
+        assert!(unit > 0.5 && unit < Loss::Square.scale(&residuals, 4.0));
+        for factor in [1e-9, 1e9] {
+            let scale = Loss::Huber.scale(&residuals.map(|r| factor * r), 4.0);
+            assert!((scale / (factor * unit) - 1.0).abs() < 1e-12, "{scale:e}");
+        }
+    }
 }

@@ -496,4 +496,80 @@ fn a_place_that_was_not_marked_is_not_fitted() {
     let of_second = (0..6).map(|place| Unknown::Start(1, place));
     let expected: Vec<Unknown> = of_first.chain(of_second).collect();
     assert_eq!(at_the_truth(&task, &[]).unknowns, expected);
+    let options = Options {
+        free: Vec::new(),
+        ..Options::default()
+    };
+    let fit = fit(&model(), &drops[..1], &options).unwrap();
+    let coordinates: Vec<_> = fit.noise.iter().map(|noise| noise.coordinate).collect();
+    assert_eq!(coordinates, [Coordinate::Z, Coordinate::Theta]);
+    assert_eq!((fit.n, fit.fitted), (2 * 13, 5 + 2));
+}
+
+/// At a restitution of 1, the end of its range, derivatives are those of the side within, and nearly those close to it.
+#[test]
+fn derivatives_at_the_end_of_a_range_are_those_close_to_it() {
+    let film = Synthetic::default();
+    let drops = [film.film(&model()).unwrap()];
+    let task = Task::new(model(), &drops, Loss::Square);
+    let at = |restitution: f64| {
+        let mut problem = at_the_truth(&task, &[Parameter::Restitution]);
+        problem.point.shared = Shared {
+            restitution,
+            ..film.shared
+        };
+        problem.point.starts[0] = film.start;
+        problem.weighing.frames[0] = 80;
+        problem.derivatives().unwrap().column(0).clone_owned()
+    };
+    let (end, close) = (at(1.0), at(1.0 - 1e-4));
+    assert!(end.norm() > 100.0 && (end - &close).norm() < 0.01 * close.norm());
+}
+
+/// Kenward & Roger's variance in matrices: V + 2 V Σ (2/ν)(N − N V N) V, the sum over the coordinates, N the normal matrix
+/// of one. What the others do with a parameter that is held is its column of V.
+#[test]
+fn errors_hold_what_the_estimated_weights_add() {
+    let film = Synthetic::default();
+    let drops = [film.film(&model()).unwrap()];
+    let task = Task::new(model(), &drops, Loss::Square);
+    let mut problem = at_the_truth(&task, &[Parameter::Restitution, Parameter::Friction]);
+    problem.point.shared = film.shared;
+    problem.point.starts[0] = film.start;
+    problem.weighing.frames[0] = 100;
+    problem.weighing.sigma = [5e-4, 5e-4, 0.5_f64.to_radians()];
+    let found = spread(&problem).unwrap();
+    let (matrix, rows) = (
+        problem.derivatives().unwrap(),
+        problem.deviations().unwrap(),
+    );
+    let of = |coordinate: Coordinate| {
+        let of_it = (0..rows.len()).filter(|i| rows[*i].coordinate == coordinate);
+        let part = matrix.select_rows(&of_it.collect::<Vec<_>>());
+        part.tr_mul(&part)
+    };
+    let v = matrix.tr_mul(&matrix).try_inverse().unwrap();
+    let mut added = &v * 0.0;
+    for coordinate in Coordinate::ALL {
+        let n = of(coordinate);
+        let taken = (&n * &v).trace();
+        assert!((found.taken[coordinate.index()] - taken).abs() < 1e-6);
+        added += &v * (&n - &n * &v * &n) * &v * (4.0 / (100.0 - taken));
+    }
+    for (j, unknown) in problem.unknowns.iter().enumerate() {
+        let variance = v[(j, j)] + added[(j, j)].max(0.0);
+        let error = found.errors[j].unwrap() / problem.scale(*unknown);
+        assert!((error * error / variance - 1.0).abs() < 1e-6, "{unknown:?}");
+        assert!((found.inflation[j] * v[(j, j)] / variance - 1.0).abs() < 1e-6);
+    }
+    assert!(found.inflation[0] > 1.001);
+    for (j, valley) in found.valleys.iter().enumerate() {
+        let expected = v.column(j) / v[(j, j)];
+        assert!(
+            valley
+                .iter()
+                .zip(&expected)
+                .all(|(a, b)| (a - b).abs() < 1e-6 * (1.0 + b.abs()))
+        );
+    }
 }

@@ -82,6 +82,9 @@ fn a_wrong_cell_is_marked_alone() {
     );
     let quote = format!("{:?}", found[0]);
     assert!(quote.contains("2..6"), "{quote}");
+    let found = problems(b"t\ty\tangle\n0\t1\t2\t345\n0.1\t2\t3\n");
+    let quote = format!("{:?}", found[0]);
+    assert!(found[0].column == 7 && quote.contains("6..9"), "{quote}");
 }
 
 /// Up to the limits and no further: of bytes, of a line, of columns.

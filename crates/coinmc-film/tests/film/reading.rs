@@ -186,3 +186,36 @@ fn names_do_not_tell_the_decimal_mark() {
     let footage = read("named", text.as_bytes(), &choice).unwrap();
     assert_eq!(z(&footage), [Some(0.25), Some(1.0)]);
 }
+
+/// The centre lies between both points, and the angle is that of the line from the first to the second.
+#[test]
+fn oblique_points_have_the_angle_of_their_line() {
+    let text = "#multi:\n\tA\t\tB\t\nt\tx\ty\tx\ty\n0\t0.01\t0.1\t0.04\t0.14\n1\t0\t0\t1\t1\n";
+    let choice = Choice {
+        ends: Some(("A".into(), "B".into())),
+        ..Choice::default()
+    };
+    let seen = read("test", text.as_bytes(), &choice).unwrap().drop.frames[0].seen;
+    let expected = [0.025, 0.12, -libm::atan2(0.04, 0.03)];
+    assert!(
+        seen.iter()
+            .zip(expected)
+            .all(|(a, b)| (a.unwrap() - b).abs() < 1e-15),
+        "{seen:?}"
+    );
+}
+
+/// Whole numbers have no decimal mark at all.
+#[test]
+fn whole_numbers_are_read_with_points() {
+    assert!(
+        !understood(b"t;y;angle\n0;1;1\n1;2;1\n")
+            .dialect
+            .decimal_comma
+    );
+    assert!(
+        understood(b"t;y;angle\n0;1;1,5\n1;2;1\n")
+            .dialect
+            .decimal_comma
+    );
+}
