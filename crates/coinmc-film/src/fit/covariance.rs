@@ -278,14 +278,13 @@ mod tests {
         }
     }
 
-    /// The weighted mean of two series has the variance V (1 + 4 Σ wᵢ (1 − wᵢ)/νᵢ) if the weights come from the series: Meier,
+    /// The weighted mean of several series has the variance V (1 + 4 Σ wᵢ (1 − wᵢ)/νᵢ) if the weights come from the series: Meier,
     /// Biometrics 9 (1953) 59.
     #[test]
     fn estimated_weights_add_what_meier_says() {
-        let (counts, sigmas) = ([5, 8], [0.5, 0.25]);
-        let mut slopes = Vec::new();
-        let mut deviations = Vec::new();
-        for (i, coordinate) in [Coordinate::X, Coordinate::Theta].into_iter().enumerate() {
+        let (counts, sigmas) = ([5, 8, 30], [0.5, 0.25, 2.0]);
+        let (mut slopes, mut deviations) = (Vec::new(), Vec::new());
+        for (i, coordinate) in Coordinate::ALL.into_iter().enumerate() {
             for frame in 0..counts[i] {
                 slopes.push(1.0 / sigmas[i]);
                 deviations.push(Deviation {
@@ -297,18 +296,19 @@ mod tests {
             }
         }
         let rows = DMatrix::from_column_slice(slopes.len(), 1, &slopes);
-        let of_series = [0, 1].map(|i: usize| counts[i] as f64 / (sigmas[i] * sigmas[i]));
-        let variance = 1.0 / (of_series[0] + of_series[1]);
+        let of_series = [0, 1, 2].map(|i: usize| counts[i] as f64 / (sigmas[i] * sigmas[i]));
+        let variance = 1.0 / of_series.iter().sum::<f64>();
         let weights = of_series.map(|one| one * variance);
+        let points = counts.map(|count| count as f64);
         let spread = Spread {
-            taken: [weights[0], 0.0, weights[1]],
-            points: [5.0, 0.0, 8.0],
+            taken: weights,
+            points,
             ..nothing(1)
         };
         let inverse = DMatrix::from_element(1, 1, variance);
         let found = excess(&rows, &deviations, &inverse, &spread)[0];
-        let term = |i: usize| weights[i] * (1.0 - weights[i]) / (counts[i] as f64 - weights[i]);
-        let expected = 4.0 * variance * (term(0) + term(1));
+        let terms = (0..3).map(|i| weights[i] * (1.0 - weights[i]) / (points[i] - weights[i]));
+        let expected = 4.0 * variance * terms.sum::<f64>();
         assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
     }
 

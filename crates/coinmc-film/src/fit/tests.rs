@@ -6,6 +6,7 @@ use super::problem::{Point, Problem, Task, Unknown, Weighing};
 use super::search::search_further;
 use super::{
     Fit, FitError, Loss, MAX_DROPS, MAX_FRAMES, Options, Remark, check, converge_noise, fit, hop,
+    intervals,
 };
 use crate::drop::{Coordinate, FilmedDrop};
 use crate::law::Model;
@@ -289,6 +290,13 @@ fn random_steps_leave_a_false_minimum() {
     };
     let (right, wrong) = (from(0.45, 0.3), from(0.8, 0.1));
     assert!(wrong.cost() > 100.0 * right.cost());
+    // the profile around it meets lower costs, and gives up its intervals for them unless it may not
+    let (around, options) = (spread(&wrong).unwrap(), Options::default());
+    let better = intervals(&wrong, &around, &options, true).unwrap_err();
+    assert!(better.cost() < wrong.cost());
+    assert!(intervals(&wrong, &around, &options, false).is_ok());
+    let around = spread(&right).unwrap();
+    assert!(intervals(&right, &around, &options, true).is_ok());
     for found in [hop(wrong.clone()).unwrap(), search_further(wrong)] {
         assert!((found.cost() / right.cost() - 1.0).abs() < 1e-6);
         assert!((found.point.shared.restitution - 0.5).abs() < 2e-3);

@@ -119,7 +119,8 @@ fn the_limits_themselves_are_allowed() {
             .contains("bytes")
     );
     let mut full = table(3).into_bytes();
-    full.resize(MAX_BYTES, b'\n');
+    let remark = ["#".repeat(MAX_LINE - 1), "\n".to_owned()].concat();
+    full.extend(remark.bytes().cycle().take(MAX_BYTES - full.len()));
     assert!(read("full", &full, &Choice::default()).is_ok());
 }
 
