@@ -8,8 +8,8 @@ use crate::contact::Usage;
 use crate::laws::Moreau;
 use crate::model::Model;
 use crate::toss::Toss;
-use coinmc_core::{Event, Launch, State};
-use nalgebra::{UnitVector3, Vector3};
+use coinmc_core::{Event, State};
+use nalgebra::Vector3;
 
 /// Gives a coin in contact this spin, and the velocity of its centre with which the contact point slips like this.
 fn set_motion(toss: &mut Toss, model: &Model<Moreau>, spin: Spin<f64>, slip: [f64; 2]) {
