@@ -369,4 +369,19 @@ mod tests {
             assert!((bend - differences[1]).abs() < 1e-3, "{i}: {bend}");
         }
     }
+
+    /// The root mean square of the slopes along both axes, over all points of the grid: 1, but for rounding.
+    #[test]
+    fn the_rms_slope_is_one() {
+        let (field, mut squares) = (HeightField::shared(), 0.0);
+        for row in 0..SIDE {
+            for column in 0..SIDE {
+                let [x, y] = [column, row].map(|index| index as f64 / DENSITY);
+                let [gx, gy] = field.gradient(x, y);
+                squares += 0.5 * (gx * gx + gy * gy);
+            }
+        }
+        let rms = (squares / (SIDE * SIDE) as f64).sqrt();
+        assert!((rms - 1.0).abs() < 1e-11, "{rms}");
+    }
 }

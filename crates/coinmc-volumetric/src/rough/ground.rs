@@ -368,4 +368,25 @@ mod tests {
             }
         }
     }
+
+    /// No point of the rim is looked at from where on even ground of 3 σ would not reach higher under it than the highest
+    /// found: 3 − b k² < best. Here that is the middle.
+    #[test]
+    fn points_that_ground_of_three_deviations_does_not_reach_are_not_looked_at() {
+        for (bend, middle, farthest) in [
+            (1.0, 0.0, 1.0),
+            (0.1, 0.0, 5.0),
+            (0.1, 2.5, 2.0),
+            (0.01, 0.0, FARTHEST),
+        ] {
+            let seen = std::cell::Cell::new(0.0);
+            let at_most = |k: f64| {
+                seen.set(k.abs().max(seen.get()));
+                f64::NEG_INFINITY
+            };
+            let (k, height) = highest(bend, |k| middle - bend * k * k, at_most);
+            assert_eq!(seen.get(), farthest, "{bend} {middle}");
+            assert!(k == 0.0 && height == middle, "{k} {height}");
+        }
+    }
 }

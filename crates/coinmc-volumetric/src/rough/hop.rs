@@ -230,3 +230,6 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         self.budget = self.budget.min(self.energy());
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -99,7 +99,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::test_scenes::Rough;
+    use super::super::test_scenes::{Rough, leaning};
     use super::*;
     use crate::contact::Usage;
     use crate::motion::{Motion, Spin};
@@ -151,5 +151,22 @@ mod tests {
             error.abs() < 5.0 * steep / (landings as f64).sqrt(),
             "{mean}"
         );
+    }
+
+    /// Bumps count as steps of contact, one each, and not as impacts.
+    #[test]
+    fn a_bump_counts_as_a_step() {
+        let model = Rough::of(0.6, 0.02).model();
+        let ground = model.ground.expect("a rough ground");
+        let mut toss = leaning(&model, 0.1, [0.0, 0.1, -0.2]);
+        let impacts = toss.impacts;
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        for bumps in 1..=3 {
+            walk.toss.motion.vz = -0.2;
+            walk.budget = walk.energy();
+            walk.collide_with([0.0; 2]);
+            assert_eq!((walk.usage.steps, walk.toss.impacts), (bumps, impacts));
+        }
     }
 }

@@ -335,9 +335,6 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let gap = self.gap_of_other().max(0.0);
         let most = (NO_ROCKING * self.ground.unevenness())
             .max(2.0 * body.half * body.half * self.model.negligible_rocking);
-        if gap > most {
-            return false;
-        }
         let rate = -2.0 * body.half * contact.state[OMEGA_Y] * self.toss.motion.sin
             + tracks.own.rate
             - tracks.other.rate;

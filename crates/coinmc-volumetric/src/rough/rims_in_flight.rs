@@ -257,4 +257,23 @@ mod tests {
         }
         assert!(dips > 1_000 && nearest < 1e-4, "{dips} {nearest}");
     }
+
+    /// Between two times a point that accelerates upwards at a dips by a t²/8 below the straight line. Of a coin that turns
+    /// at ω about a horizontal axis, a point at the distance 1 accelerates at ω² less its weight.
+    #[test]
+    fn rims_dip_as_a_parabola_does() {
+        let mut dice = Dice::new(43, 0);
+        let body = body(&mut dice);
+        for rate in [0.5, 1.5, 3.0] {
+            let mut motion = leaving(&mut dice, body.axial_factor(true));
+            (motion.ox, motion.oy, motion.oz) = (0.0, rate, 0.0);
+            let orbit = Orbit::new(&motion, NO_DRAG);
+            let bounds = orbit.bounds(&orbit.extent(&body));
+            let rims = RimsInFlight::new(&body, &orbit, 0.1);
+            for time in [0.02, 0.1] {
+                let dip = (rate * rate - 1.0).max(0.0) * time * time / 8.0;
+                assert!((rims.dip(&orbit, &bounds, time) - dip).abs() < 1e-15);
+            }
+        }
+    }
 }

@@ -310,14 +310,14 @@ mod tests {
         assert_eq!([vx, wz], [0.0; 2]);
     }
 
-    /// The same on a table that is tilted by 4°.
-    fn tilted() -> Model<Moreau> {
+    /// The same on a table that is tilted by 4° in this direction.
+    fn tilted(direction_deg: f64) -> Model<Moreau> {
         let scene = Rough {
             friction_m: [1e-9, 1e-9],
             ..Rough::of(0.7, 0.02)
         }
         .scene();
-        let tilt = TableTilt::new(4.0, 30.0).expect("a valid tilt");
+        let tilt = TableTilt::new(4.0, direction_deg).expect("a valid tilt");
         let surface = scene.surface.with_tilt(tilt).expect("a valid surface");
         let scene = Scene::new(scene.coin, surface, 9.81).expect("a valid scene");
         Model::new(&scene, &Settings::default(), Moreau).expect("valid settings")
@@ -327,7 +327,7 @@ mod tests {
     /// sticks takes up what would move it, so that what is left is the moment of the pull about it.
     #[test]
     fn a_tilted_table_pulls_at_the_centre() {
-        let (model, time) = (tilted(), 0.05);
+        let (model, time) = (tilted(30.0), 0.05);
         let ground = model.ground.expect("a rough ground");
         let radius = model.dynamics.body.radius;
         for (sliding, mode) in [(0.0, Mode::Stick), (1.0, Mode::Slip)] {
@@ -375,7 +375,7 @@ mod tests {
     /// none that friction holds along its axis.
     #[test]
     fn a_tilted_table_pulls_a_coin_on_both_rims() {
-        let (model, time) = (tilted(), 0.1);
+        let (model, time) = (tilted(30.0), 0.1);
         let ground = model.ground.expect("a rough ground");
         let mut toss = model.launch(&leaning(0.01, [0.0; 2], 0.0));
         let (mut usage, mut observer) = (Usage::default(), ());
@@ -403,7 +403,7 @@ mod tests {
     /// The way down a tilted table gives the budget what the height is worth, and the way up takes it.
     #[test]
     fn the_way_down_a_tilted_table_adds_to_the_budget() {
-        let model = tilted();
+        let model = tilted(30.0);
         let ground = model.ground.expect("a rough ground");
         let mut toss = model.launch(&leaning(0.01, [0.0; 2], 0.0));
         let (mut usage, mut observer) = (Usage::default(), ());
@@ -471,6 +471,34 @@ mod tests {
                     let gained = walk.toss.spin.axial - before;
                     assert_eq!(gained == 0.0, held, "{angle} {speed}: {gained:e}");
                 }
+            }
+        }
+    }
+
+    /// A pull straight along the coin's axis, or straight along its plane, pulls as well: all of it a coin that slides.
+    #[test]
+    fn a_table_pulls_a_coin_that_faces_downhill_or_across() {
+        let (model, time) = (tilted(0.0), 0.05);
+        let ground = model.ground.expect("a rough ground");
+        let pull = 0.5 * time * libm::tan(4.0_f64.to_radians());
+        let (sin, cos) = libm::sincos(0.3);
+        // downhill is along x; a coin whose axis points to y has that at its right
+        for (axis, expected) in [([cos, 0.0], [pull, 0.0]), ([0.0, cos], [0.0, -pull])] {
+            let mut launch = leaning(0.3, [1.0, 0.0], 0.0);
+            launch.axis = UnitVector3::new_unchecked(Vector3::new(axis[0], axis[1], sin));
+            let mut toss = touching(&model, &launch);
+            let (mut usage, mut observer) = (Usage::default(), ());
+            let mut walk =
+                Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+            let contact = walk.contact();
+            assert_eq!(contact.mode, Mode::Slip);
+            assert!(walk.pull().contains(&0.0));
+            let before = walk.toss.motion;
+            walk.descend_on_rim(&contact, [0.0; 2], time);
+            let after = walk.toss.motion;
+            let gained = [after.vx - before.vx, after.vy - before.vy];
+            for (gained, expected) in gained.into_iter().zip(expected) {
+                assert!((gained - expected).abs() < 1e-12, "{gained} {expected}");
             }
         }
     }

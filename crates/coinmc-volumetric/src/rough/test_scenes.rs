@@ -1,9 +1,13 @@
 //! The coins and grounds of this module's tests.
 
+use super::walk::Walk;
 use crate::laws::Moreau;
 use crate::model::Model;
+use crate::motion::Spin;
 use crate::settings::Settings;
-use coinmc_core::{Coin, Roughness, Scene, Surface};
+use crate::toss::Toss;
+use coinmc_core::{Coin, Launch, Roughness, Scene, Surface};
+use nalgebra::{UnitVector3, Vector3};
 
 /// A coin on rough ground.
 #[derive(Debug, Clone, Copy)]
@@ -43,4 +47,27 @@ impl Rough {
     pub(super) fn model(&self) -> Model<Moreau> {
         Model::new(&self.scene(), &Settings::default(), Moreau).expect("valid settings")
     }
+}
+
+/// A coin whose own rim touches the mean of the ground, that leans at this angle from upright, and whose centre has
+/// this velocity in its frame.
+pub(super) fn leaning(model: &Model<Moreau>, angle: f64, velocity: [f64; 3]) -> Toss {
+    let (sin, cos) = libm::sincos(angle);
+    let mut toss = model.launch(&Launch {
+        height_m: 0.0,
+        velocity_m_s: Vector3::zeros(),
+        axis: UnitVector3::new_unchecked(Vector3::new(cos, 0.0, sin)),
+        spin_rad_s: Vector3::zeros(),
+    });
+    toss.motion.z = toss.motion.rest_height(&model.dynamics.body);
+    let m = &mut toss.motion;
+    [m.vx, m.vy, m.vz] = velocity;
+    toss
+}
+
+/// Gives a coin this spin.
+pub(super) fn set_spin(walk: &mut Walk<'_, Moreau, ()>, spin: Spin<f64>) {
+    walk.toss.spin = spin;
+    let factor = walk.model.dynamics.axial_factor;
+    walk.toss.motion.set_spin(&spin, factor);
 }

@@ -247,6 +247,28 @@ fn on_a_table_with_an_edge_rest_decides() {
     }
 }
 
+/// A coin on both rims whose energy decides nothing is on its side once it has been slow for long: with less than a thousandth of
+/// the well's depth in motion.
+#[test]
+fn a_coin_that_rests_on_both_rims_is_on_its_side_whatever_its_energy() {
+    let model = rough([0.7, 0.5, 0.03, 3e-3]).model();
+    let mut ground = model.ground.expect("a rough ground");
+    ground.kicks.brim = 0.0;
+    let well = 1.0 - model.dynamics.body.radius;
+    for (share, slow) in [(0.98, true), (1.02, false)] {
+        let mut toss = model.launch(&leaning(0.02));
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        walk.toss.motion.vy = (2.0 * share * REST * well).sqrt();
+        walk.toss.motion.z = 1.5;
+        for (time, late) in [(0.0, false), (4.9, false), (5.1, true)] {
+            walk.usage.time = time;
+            let expected = (slow && late).then_some(Decided::Side);
+            assert_eq!(walk.decide(Touch::Both), expected, "{share} {time}");
+        }
+    }
+}
+
 /// A coin that rolls upright and hops is safe while the speeds that its hop and the kicks to be expected would give to its
 /// lean add up to less than what carries it over the balance: sqrt(½ v_z²) + sqrt(½ (k_t + R²)) n w s_d/2h < b sqrt(1 − R), with
 /// w the speed at the deepest place, n and b the number of standard deviations and the share of the well that the ground leaves.

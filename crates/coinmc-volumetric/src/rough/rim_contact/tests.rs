@@ -1,26 +1,15 @@
 //! Tests of sustained contact of one rim on rough ground.
 
-use super::super::test_scenes::Rough;
+mod touch;
+
+use super::super::test_scenes::{Rough, leaning};
 use super::*;
 use crate::contact::Usage;
 use crate::laws::Moreau;
 use crate::model::Model;
 use crate::toss::Toss;
-use coinmc_core::{Event, Launch, State};
-use nalgebra::{UnitVector3, Vector3};
-
-/// A coin whose own rim touches the mean ground, leaning at this angle from upright.
-fn touching(model: &Model<Moreau>, angle: f64) -> Toss {
-    let (sin, cos) = libm::sincos(angle);
-    let mut toss = model.launch(&Launch {
-        height_m: 0.0,
-        velocity_m_s: Vector3::zeros(),
-        axis: UnitVector3::new_unchecked(Vector3::new(cos, 0.0, sin)),
-        spin_rad_s: Vector3::zeros(),
-    });
-    toss.motion.z = toss.motion.rest_height(&model.dynamics.body);
-    toss
-}
+use coinmc_core::{Event, State};
+use nalgebra::Vector3;
 
 /// Gives a coin in contact this spin, and the velocity of its centre with which the contact point slips like this.
 fn set_motion(toss: &mut Toss, model: &Model<Moreau>, spin: Spin<f64>, slip: [f64; 2]) {
@@ -58,7 +47,7 @@ fn momenta(walk: &Walk<'_, Moreau, ()>) -> [Vector3<f64>; 2] {
 fn a_bend_changes_the_normal_velocity_of_the_contact_point_alone() {
     let model = Rough::of(0.7, 0.02).model();
     let ground = model.ground.expect("a rough ground");
-    let mut toss = touching(&model, 0.4);
+    let mut toss = leaning(&model, 0.4, [0.0; 3]);
     set_motion(&mut toss, &model, ROLLING, [0.2, -0.3]);
     let (mut usage, mut observer) = (Usage::default(), ());
     let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
@@ -90,7 +79,7 @@ fn a_rim_follows_bends_that_it_can() {
         (0.98, true, follows),
         (1.02, true, Next::Impact),
     ] {
-        let mut toss = touching(&model, 0.05);
+        let mut toss = leaning(&model, 0.05, [0.0; 3]);
         set_motion(&mut toss, &model, ROLLING, [0.0, -0.4]);
         let (mut usage, mut observer) = (Usage::default(), ());
         let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
@@ -118,57 +107,6 @@ fn a_rim_follows_bends_that_it_can() {
     }
 }
 
-/// The time at which the other rim comes down to its track, of a coin that tilts upright in a step: where 2h cos θ is the
-/// difference of the tracks. At once where it is there already and approaches; never where it stays above.
-#[test]
-fn the_other_rim_touches_where_the_lean_is_that_of_the_tracks() {
-    let model = Rough::of(0.7, 0.02).model();
-    let ground = model.ground.expect("a rough ground");
-    let (half, length) = (model.dynamics.body.half, 0.04);
-    for (start, rates, expected) in [
-        (0.003, [0.02, -0.01], Some(true)),
-        (0.003, [-0.03, 0.02], Some(true)),
-        (0.0, [0.0, 0.0], Some(false)),
-        (0.1, [0.0, 0.0], None),
-    ] {
-        let mut toss = touching(&model, 0.05);
-        let spin = Spin {
-            tilt: 0.9,
-            ..ROLLING
-        };
-        set_motion(&mut toss, &model, spin, [0.0, -0.4]);
-        let (mut usage, mut observer) = (Usage::default(), ());
-        let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
-        let contact = walk.contact();
-        // the other rim starts so high above its track
-        let above = 2.0 * half * walk.toss.motion.cos;
-        (walk.tracks.own.height, walk.tracks.other.height) = (0.01, 0.01 + above - start);
-        [walk.tracks.own.rate, walk.tracks.other.rate] = rates;
-        let step = ScalarStep {
-            state: &contact.state,
-            now: &contact.now,
-            mode: contact.mode,
-            length,
-            tolerance: 1e-6,
-        };
-        let (trial, _) = step.run_ahead(&model.dynamics, 0.0);
-        let found = walk.touch_of_other(&contact, &trial, length);
-        let Some(within) = expected else {
-            assert_eq!(found, None);
-            continue;
-        };
-        let time = found.expect("a touch");
-        assert_eq!(time > 0.0, within, "{time}");
-        let tilt = trial.between(&contact.state, time / length)[TILT];
-        let [own, other] = [
-            walk.tracks.own.height + rates[0] * time,
-            walk.tracks.other.height + rates[1] * time,
-        ];
-        let gap = 2.0 * half * libm::cos(tilt) + own - other;
-        assert!(gap.abs() <= 2.0 * TOUCH && time < length, "{gap:e}");
-    }
-}
-
 /// A coin that leans and that friction cannot hold begins to slip against the friction that would, as fast as a slip may be
 /// that counts as none. One that slips already, though slowly, goes on slipping as it does.
 #[test]
@@ -180,7 +118,7 @@ fn a_coin_that_friction_cannot_hold_begins_to_slip_against_it() {
     let model = rough.model();
     let ground = model.ground.expect("a rough ground");
     let stick = model.contact_rules().stick_speed;
-    let mut toss = touching(&model, 0.3);
+    let mut toss = leaning(&model, 0.3, [0.0; 3]);
     set_motion(&mut toss, &model, ROLLING, [0.0, 0.0]);
     let (mut usage, mut observer) = (Usage::default(), ());
     let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
@@ -191,7 +129,7 @@ fn a_coin_that_friction_cannot_hold_begins_to_slip_against_it() {
     assert_eq!(contact.mode, Mode::Slip);
     assert!((slip_speed(&contact.state) / stick - 1.0).abs() < 1e-9);
     assert!((x * fy - y * fx).abs() < 1e-9 * stick && x * fx + y * fy < 0.0);
-    let mut toss = touching(&model, 0.3);
+    let mut toss = leaning(&model, 0.3, [0.0; 3]);
     set_motion(&mut toss, &model, ROLLING, [0.3 * stick, 0.4 * stick]);
     let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
     let contact = walk.contact();
@@ -205,7 +143,7 @@ fn a_coin_that_friction_cannot_hold_begins_to_slip_against_it() {
 fn a_given_slip_comes_by_an_impulse_at_the_contact_point() {
     let model = Rough::of(0.7, 0.02).model();
     let ground = model.ground.expect("a rough ground");
-    let mut toss = touching(&model, 0.4);
+    let mut toss = leaning(&model, 0.4, [0.0; 3]);
     set_motion(&mut toss, &model, ROLLING, [0.2, -0.3]);
     let (mut usage, mut observer) = (Usage::default(), ());
     let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
@@ -244,7 +182,11 @@ fn rocking_that_the_ground_outweighs_stays_below_its_unevenness() {
         let most = one.max(plane);
         for number in 0..300 {
             let mut dice = coinmc_testkit::Dice::new(541, number);
-            let mut toss = touching(&model, dice.between(0.0, 2.0) * most / (2.0 * half));
+            let mut toss = leaning(
+                &model,
+                dice.between(0.0, 2.0) * most / (2.0 * half),
+                [0.0; 3],
+            );
             let tilt = dice.between(-0.7, 0.7) * most.sqrt();
             set_motion(&mut toss, &model, Spin { tilt, ..ROLLING }, [0.0; 2]);
             let (mut usage, mut observer) = (Usage::default(), ());
@@ -288,7 +230,7 @@ fn a_jam_ends_the_slip() {
     let ground = model.ground.expect("a rough ground");
     let mut jams = 0;
     for number in 1..30 {
-        let mut toss = touching(&model, 0.05 * f64::from(number));
+        let mut toss = leaning(&model, 0.05 * f64::from(number), [0.0; 3]);
         for sign in [-1.0, 1.0] {
             set_motion(&mut toss, &model, Spin::still(), [0.3 * sign, 0.0]);
             let (mut usage, mut observer) = (Usage::default(), ());
@@ -330,7 +272,7 @@ impl Observer for Looks {
 fn a_step_is_shown_along_a_straight_line() {
     let model = Rough::of(0.7, 0.02).model();
     let ground = model.ground.expect("a rough ground");
-    let mut toss = touching(&model, 0.4);
+    let mut toss = leaning(&model, 0.4, [0.0; 3]);
     set_motion(&mut toss, &model, Spin::still(), [0.2, -0.3]);
     let (before, time) = ((toss.motion, toss.spin), 0.3);
     let (mut usage, mut observer) = (Usage::default(), Looks(Vec::new()));
@@ -375,7 +317,7 @@ fn a_step_ends_contact_or_slip_where_they_end() {
     ] {
         let model = of(friction).model();
         let ground = model.ground.expect("a rough ground");
-        let mut toss = touching(&model, 0.4);
+        let mut toss = leaning(&model, 0.4, [0.0; 3]);
         set_motion(&mut toss, &model, ROLLING, [0.2, -0.3]);
         let (mut usage, mut observer) = (Usage::default(), ());
         let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
@@ -401,7 +343,7 @@ fn a_step_ends_contact_or_slip_where_they_end() {
 fn steps_of_a_rim_count_and_take_their_time() {
     let model = Rough::of(0.7, 0.001).model();
     let ground = model.ground.expect("a rough ground");
-    let mut toss = touching(&model, 0.2);
+    let mut toss = leaning(&model, 0.2, [0.0; 3]);
     set_motion(&mut toss, &model, ROLLING, [0.0, 0.0]);
     let (mut usage, mut observer) = (Usage::default(), ());
     let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
@@ -441,7 +383,7 @@ fn the_lead_is_what_a_coin_has_beyond_its_budget() {
     };
     let model = rough.model();
     let ground = model.ground.expect("a rough ground");
-    let mut toss = touching(&model, 0.2);
+    let mut toss = leaning(&model, 0.2, [0.0; 3]);
     set_motion(&mut toss, &model, ROLLING, [0.0, 0.0]);
     let (mut usage, mut observer) = (Usage::default(), ());
     let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);

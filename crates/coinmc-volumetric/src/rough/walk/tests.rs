@@ -2,17 +2,18 @@
 
 mod nodes;
 
-use super::super::test_scenes::Rough;
+use super::super::test_scenes::{Rough, leaning, set_spin};
 use super::*;
 use crate::laws::Moreau;
 use crate::settings::Settings;
+use crate::toss::tests::agree;
 use coinmc_core::Launch;
 use coinmc_oracle::Start;
 use coinmc_testkit::Dice;
 use nalgebra::{UnitVector3, Vector3};
 
 /// Whatever the heights under both rims of a coin that is almost upright: of two that come down, that lands first
-/// which the other does not find in the ground then.
+/// which the other does not find in the ground then. Which it is moves nothing and changes no energy.
 #[test]
 fn of_two_rims_that_land_none_ends_below_the_ground() {
     let model = Rough::of(0.7, 0.05).model();
@@ -30,11 +31,15 @@ fn of_two_rims_that_land_none_ends_below_the_ground() {
         let (mut usage, mut observer) = (Usage::default(), ());
         let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
         walk.draw_place();
+        let (before, spare) = (walk.toss.state(&model.units), walk.budget - walk.energy());
         if walk.land_first_rim() {
             other_first += 1;
         } else {
             own_first += 1;
         }
+        // heights count from the ground under the rim that lands, and the coin is where it was
+        agree(&walk.toss.state(&model.units), &before, 1e-12);
+        assert!((walk.budget - walk.energy() - spare).abs() < 1e-12);
         let (motion, body) = (walk.toss.motion, *walk.body());
         let points = rim_points(&body, &motion, &walk.toss.spin);
         let [own, other] =
@@ -90,27 +95,6 @@ fn no_event_gains_energy() {
         }
     }
     assert!(events > 1_000, "{events}");
-}
-
-/// A coin of H/R = .7 that leans at this angle, whose centre has this velocity in its frame.
-fn leaning(model: &Model<Moreau>, angle: f64, velocity: [f64; 3]) -> Toss {
-    let (sin, cos) = libm::sincos(angle);
-    let mut toss = model.launch(&Launch {
-        height_m: 0.0,
-        velocity_m_s: Vector3::zeros(),
-        axis: UnitVector3::new_unchecked(Vector3::new(cos, 0.0, sin)),
-        spin_rad_s: Vector3::zeros(),
-    });
-    toss.motion.z = toss.motion.rest_height(&model.dynamics.body);
-    let m = &mut toss.motion;
-    [m.vx, m.vy, m.vz] = velocity;
-    toss
-}
-
-fn set_spin(walk: &mut Walk<'_, Moreau, ()>, spin: Spin<f64>) {
-    walk.toss.spin = spin;
-    let factor = walk.model.dynamics.axial_factor;
-    walk.toss.motion.set_spin(&spin, factor);
 }
 
 /// The gap under the other rim: how high its lowest point is above its track, with the own rim's on its own.

@@ -28,6 +28,55 @@ fn nodes_lie_farther_apart_where_bumps_take_less_than_rolling_friction() {
     }
 }
 
+/// Nodes are so many times as far apart that bumps, which take energy in proportion to the square of the way between nodes, take
+/// as much of it as rolling friction: ½ s²w² n² = ℓ ρ_c/R.
+#[test]
+fn between_nodes_bumps_take_as_much_as_rolling_friction() {
+    for (speed, slope) in [(0.8, 0.003), (0.12, 0.01)] {
+        let rough = Rough::of(0.7, slope);
+        let (scene, model) = (rough.scene(), rough.model());
+        let ground = model.ground.expect("a rough ground");
+        let mut toss = model.launch(&Start::Rolling(speed).launch(&scene.coin, 0.3));
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        let [own, _] = rim_points(walk.body(), &walk.toss.motion, &walk.toss.spin);
+        let [wx, wy] = own.velocity();
+        let bumps = 0.5 * slope * slope * (wx * wx + wy * wy);
+        let friction = ground.length * rough.friction_m[0] / scene.coin.radius_m();
+        let stride = walk.stride();
+        assert!(stride > 1.1 && stride < 7.9, "{stride}");
+        assert!(
+            (bumps * stride * stride / friction - 1.0).abs() < 1e-12,
+            "{stride}"
+        );
+    }
+}
+
+/// Nodes lie no farther apart where the coin comes so upright before the next one that bumps may topple it: within half of the
+/// lean at which it topples, at the rate at which its lean changes.
+#[test]
+fn nodes_lie_no_farther_apart_where_a_coin_may_come_upright() {
+    let model = Rough::of(0.7, 1e-5).model();
+    let ground = model.ground.expect("a rough ground");
+    let upright = 0.5 * model.dynamics.body.half;
+    for tilt in [0.0, 0.8, -0.8] {
+        for (share, farther) in [(0.95, false), (1.05, true)] {
+            let lean = share * (upright + f64::abs(tilt) * 0.05);
+            let mut toss = leaning(&model, libm::asin(lean), [0.0; 3]);
+            let (mut usage, mut observer) = (Usage::default(), ());
+            let mut walk =
+                Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+            walk.tracks.interval = 0.05;
+            let spin = Spin {
+                tilt,
+                ..Spin::still()
+            };
+            set_spin(&mut walk, spin);
+            assert_eq!(walk.stride() > 1.0, farther, "{tilt} {share}");
+        }
+    }
+}
+
 /// Tracks lead to the ground under the lowest points of both rims where these will be: gone on at their velocity, and turned
 /// with the coin about its centre. A rim high above the ground has the own track.
 #[test]
@@ -87,22 +136,24 @@ fn nodes_are_a_step_apart() {
 /// Between nodes the faster rim goes `ground_step` ℓ, or so many times as far as bumps matter less.
 #[test]
 fn the_faster_rim_goes_a_step_between_nodes() {
-    let rough = Rough::of(0.7, 0.05);
-    let settings = Settings {
-        ground_step: 0.3,
-        ..Settings::default()
-    };
-    let model = Model::new(&rough.scene(), &settings, Moreau).expect("valid settings");
-    let ground = model.ground.expect("a rough ground");
-    let mut toss = leaning(&model, 0.1, [0.0, 0.9, 0.0]);
-    let (mut usage, mut observer) = (Usage::default(), ());
-    let walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
-    assert_eq!(walk.stride(), 1.0);
-    let time = walk.time_between_nodes();
-    assert!(
-        (0.9 * time / (0.3 * ground.length) - 1.0).abs() < 1e-12,
-        "{time}"
-    );
+    for (slope, lean, stride) in [(0.05, 0.1, 1.0), (3e-4, 0.5, 8.0)] {
+        let settings = Settings {
+            ground_step: 0.02,
+            ..Settings::default()
+        };
+        let scene = Rough::of(0.7, slope).scene();
+        let model = Model::new(&scene, &settings, Moreau).expect("valid settings");
+        let ground = model.ground.expect("a rough ground");
+        let mut toss = leaning(&model, lean, [0.0, 0.9, 0.0]);
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        assert_eq!(walk.stride(), stride);
+        let way = 0.9 * walk.time_between_nodes();
+        assert!(
+            (way / (0.02 * ground.length * stride) - 1.0).abs() < 1e-12,
+            "{way}"
+        );
+    }
 }
 
 /// The track of a rim that comes near the ground begins at it, or at the rim where that would be in the ground.
