@@ -70,6 +70,7 @@ mod tests {
             weight: libm::exp(-0.5 * delta) / (1.0 + libm::exp(-1.0) + libm::exp(-4.0)),
         };
         let expected = [of(1, 0.0, 2.0), of(0, 2.0, 1.0), of(2, 8.0, 3.0)];
+        assert_eq!(ranked.len(), 3);
         for (found, expected) in ranked.iter().zip(expected) {
             assert_eq!(found.fit, expected.fit);
             for (found, expected) in [

@@ -82,7 +82,7 @@ fn a_wrong_cell_is_marked_alone() {
     );
     let quote = format!("{:?}", found[0]);
     assert!(quote.contains("2..6"), "{quote}");
-    let found = problems(b"t\ty\tangle\n0\t1\t2\t345\n0.1\t2\t3\n");
+    let found = problems(b"t\ty\tangle\n0\t1\t2\t345\t6\n0.1\t2\t3\n");
     let quote = format!("{:?}", found[0]);
     assert!(found[0].column == 7 && quote.contains("6..9"), "{quote}");
 }

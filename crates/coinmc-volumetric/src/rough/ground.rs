@@ -3,8 +3,8 @@
 use super::field::HeightField;
 use crate::body::Body;
 
-/// The ground under a rim's arc is not expected to be higher than in its middle by more than this
-/// many σ.
+/// The ground under a rim's arc is not expected to be higher than its mean by more than this many σ. (One
+/// place in a thousand is, and there only the points next to the middle are looked at.)
 const HIGHEST: f64 = 3.0;
 /// Distance between the points of the arc that are examined, in ℓ.
 const SPACING: f64 = 0.6;
