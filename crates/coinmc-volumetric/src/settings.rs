@@ -268,8 +268,10 @@ mod tests {
     /// Each setting out of its range is refused by its name.
     #[test]
     fn a_setting_out_of_its_range_is_refused() {
+        type Spoil = fn(&mut Settings);
+
         assert_eq!(unusual().validate(), Ok(()));
-        let wrong: [(&str, fn(&mut Settings)); 8] = [
+        let wrong: [(&str, Spoil); 8] = [
             ("zeno", |settings| settings.zeno = 0.0),
             ("tolerance", |settings| settings.tolerance = 0.1),
             ("stick_speed", |settings| settings.stick_speed = -1e-3),
