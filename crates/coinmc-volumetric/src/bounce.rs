@@ -116,6 +116,7 @@ mod tests {
     use super::*;
     use crate::four::{Bits, Four};
     use crate::laws::Moreau;
+    use crate::rigid::Rigid;
     use crate::settings::Settings;
     use crate::toss::tests::model_of;
     use coinmc_core::{Coin, Scene, Surface};
@@ -154,6 +155,31 @@ mod tests {
         motion.set_spin(&spin, model.dynamics.axial_factor);
         motion.vz = -speed - motion.contact_point(body, &spin).approach;
         (motion, spin)
+    }
+
+    /// Whatever the impulse at the lowest point, the angular momentum about that point stays, of rounded rims, too.
+    #[test]
+    fn an_impact_keeps_the_angular_momentum_about_the_lowest_point() {
+        for model in [model(0.0), model(0.002)] {
+            let body = &model.dynamics.body;
+            let momentum = |motion: &Motion<f64>, spin: &Spin<f64>| {
+                let (s, c) = (motion.sin, motion.cos);
+                let omega = Vector3::new(
+                    s * spin.axial + c * spin.turn,
+                    spin.tilt,
+                    c * spin.axial - s * spin.turn,
+                );
+                let velocity = Vector3::new(motion.vx, motion.vy, motion.vz);
+                let coin = Rigid::new(body, libm::atan2(s, c), velocity, omega);
+                coin.angular_momentum() - coin.arm.cross(&velocity)
+            };
+            for number in 0..200 {
+                let (motion, spin) = coming_down(&model, &mut Dice::new(545, number), 0.7);
+                let after = model.bounce(&motion, &spin, false);
+                let change = momentum(&after.motion, &after.spin) - momentum(&motion, &spin);
+                assert!(change.norm() < 1e-12, "{change}");
+            }
+        }
     }
 
     /// After an impact without restitution the coin stays if its contact point presses on the surface, and else lifts
