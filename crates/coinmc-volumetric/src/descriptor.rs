@@ -148,7 +148,7 @@ impl Settings {
     }
 
     /// The settings that the values of the engine's table give.
-    fn read(values: &Values) -> Result<Self, EngineError> {
+    pub(crate) fn read(values: &Values) -> Result<Self, EngineError> {
         let settings = Self::from_values(values)?;
         settings.validate().map_err(EngineError::new)?;
         Ok(settings)

@@ -64,3 +64,32 @@ fn is_finite(launch: &Launch) -> bool {
     ];
     launch.height_m.is_finite() && vectors.iter().flatten().all(|x| x.is_finite())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::toss::tests::{launch, model};
+    use coinmc_testkit::Dice;
+
+    /// A toss fails if a number of its launch is not finite, or if its launch is so fast that its energy is not.
+    #[test]
+    fn a_launch_without_finite_numbers_or_energy_fails() {
+        let model = model();
+        let fails = |spoil: fn(&mut Launch)| {
+            let mut launch = launch(&mut Dice::new(556, 0), None);
+            spoil(&mut launch);
+            model.end_at_launch(&model.launch(&launch), &launch) == Some(Ended::Failed)
+        };
+        assert!(!fails(|_| ()));
+        let wrong: [fn(&mut Launch); 5] = [
+            |launch| launch.height_m = f64::NAN,
+            |launch| launch.height_m = f64::INFINITY,
+            |launch| launch.velocity_m_s.y = f64::NEG_INFINITY,
+            |launch| launch.velocity_m_s.x = 1e200,
+            |launch| launch.spin_rad_s.z = 1e200,
+        ];
+        for spoil in wrong {
+            assert!(fails(spoil));
+        }
+    }
+}

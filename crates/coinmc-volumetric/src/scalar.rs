@@ -77,3 +77,45 @@ impl<L: ImpactLaw> Model<L> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::toss::tests::{launch, model};
+    use coinmc_core::Event;
+    use coinmc_testkit::Dice;
+
+    /// Notes what happens, and looks no farther than `most` events.
+    struct Looks {
+        most: usize,
+        seen: Vec<EventKind>,
+    }
+
+    impl Observer for Looks {
+        fn event(&mut self, event: &Event) {
+            self.seen.push(event.kind);
+        }
+
+        fn has_seen_enough(&self) -> bool {
+            self.seen.len() >= self.most
+        }
+    }
+
+    /// A toss is followed on from a flight only as long as its observer looks.
+    #[test]
+    fn a_toss_ends_after_the_flight_in_which_its_observer_has_seen_enough() {
+        let model = model();
+        let launch = launch(&mut Dice::new(557, 0), None);
+        let seen = |most| {
+            let mut looks = Looks {
+                most,
+                seen: Vec::new(),
+            };
+            model.run(&launch, &mut looks);
+            looks.seen
+        };
+        let (all, flight) = (seen(usize::MAX), seen(1));
+        assert_eq!(flight, [EventKind::Launched, EventKind::Ended]);
+        assert!(all.len() > 4 && all.contains(&EventKind::Impact), "{all:?}");
+    }
+}

@@ -213,6 +213,7 @@ pub type SettingsError = OutOfRange;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use coinmc_core::schema::Value;
 
     /// Each decision has a name by which configs know it, and says when the face is decided: only one of them
     /// rigorously.
@@ -223,5 +224,68 @@ mod tests {
         assert!(docs.iter().all(|doc| doc.starts_with("when ")));
         assert_eq!(docs.map(|doc| doc.contains("rigorous")), [false, true]);
         assert_eq!(docs.map(|doc| doc.contains("tilt the coin")), [true, false]);
+    }
+
+    /// Settings of which none is the default.
+    fn unusual() -> Settings {
+        Settings {
+            law: Law::Stronge,
+            decision: Decision::Energy,
+            zeno: 0.03,
+            tolerance: 2e-7,
+            stick_speed: 3e-4,
+            smoothing_time: 5e-4,
+            ground_step: 0.07,
+            max_impacts: 321,
+            max_steps: 654,
+            time_limit: 987.0,
+        }
+    }
+
+    /// Each value of a config's table is read under its own name, and none is taken for another or left at its default.
+    #[test]
+    fn every_key_is_read() {
+        let values = |zeno| {
+            Values::new(vec![
+                ("law", Value::Word("stronge")),
+                ("decision", Value::Word("energy")),
+                ("zeno", Value::Number(zeno)),
+                ("tolerance", Value::Number(2e-7)),
+                ("stick_speed", Value::Number(3e-4)),
+                ("smoothing_time", Value::Number(5e-4)),
+                ("ground_step", Value::Number(0.07)),
+                ("max_impacts", Value::Integer(321)),
+                ("max_steps", Value::Integer(654)),
+                ("time_limit", Value::Number(987.0)),
+            ])
+        };
+        let found = Settings::read(&values(0.03)).expect("all is there and in its range");
+        assert_eq!(found, unusual());
+        assert!(Settings::read(&values(1.5)).is_err());
+        assert!(Settings::read(&values(0.03).without("law")).is_err());
+    }
+
+    /// Each setting out of its range is refused by its name.
+    #[test]
+    fn a_setting_out_of_its_range_is_refused() {
+        type Spoil = fn(&mut Settings);
+
+        assert_eq!(unusual().validate(), Ok(()));
+        let wrong: [(&str, Spoil); 8] = [
+            ("zeno", |settings| settings.zeno = 0.0),
+            ("tolerance", |settings| settings.tolerance = 0.1),
+            ("stick_speed", |settings| settings.stick_speed = -1e-3),
+            ("smoothing_time", |settings| settings.smoothing_time = 0.2),
+            ("ground_step", |settings| settings.ground_step = 2.0),
+            ("max_impacts", |settings| settings.max_impacts = 0),
+            ("max_steps", |settings| settings.max_steps = 0),
+            ("time_limit", |settings| settings.time_limit = f64::NAN),
+        ];
+        for (name, spoil) in wrong {
+            let mut settings = unusual();
+            spoil(&mut settings);
+            let refused = settings.validate().expect_err(name);
+            assert_eq!(refused.name, name);
+        }
     }
 }

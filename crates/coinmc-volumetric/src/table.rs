@@ -341,6 +341,26 @@ mod tests {
         assert_eq!(seen, [0.0, 0.5]);
     }
 
+    /// A toss begins straight above the middle of the table, which is downhill of it in axes of the table.
+    #[test]
+    fn a_launch_above_a_tilted_table_begins_where_it_is() {
+        let table = table(7.0);
+        let launch = Launch {
+            height_m: 0.25,
+            velocity_m_s: Vector3::new(0.3, -0.4, 0.2),
+            axis: UnitVector3::new_normalize(Vector3::new(1.0, 2.0, 2.0)),
+            spin_rad_s: Vector3::new(20.0, -5.0, 12.0),
+        };
+        let (_, toss) = table.launch(&launch);
+        let begun = toss.state(&table.model.units);
+        let (sin, cos) = libm::sincos(7.0_f64.to_radians());
+        // downhill is along x, and the vertical leans uphill of the table's normal
+        let up = Vector3::new(-sin, 0.0, cos);
+        assert!((begun.position_m - up * 0.25).norm() < 1e-15, "{begun:?}");
+        let level = begun.velocity_m_s.dot(&up) - 0.2;
+        assert!(level.abs() < 1e-15, "{level}");
+    }
+
     /// A table of this radius, and a coin at rest on it.
     fn round(radius_m: f64, tilt: Option<TableTilt>, drag: f64) -> (Table<Moreau>, State) {
         // on a tilted table friction must hold a coin

@@ -1,12 +1,16 @@
 //! Tosses in a batch end bit-identically to the scalar path.
 
+use super::Batch;
+use super::pool::SLOTS;
 use crate::engine::VolumetricEngine;
 use crate::finished_toss::FinishedToss;
 use crate::impact::ImpactLaw;
 use crate::laws::{ChatterjeeRuina, Moreau, Stronge};
 use crate::settings::{Decision, Settings};
-use coinmc_core::{Coin, Drag, Ended, Engine, Landing, Launch, Preset, Scene, Surface, TossBatch};
-use coinmc_lanes::Lanes;
+use coinmc_core::{
+    Coin, Drag, Ended, Engine, Landing, Launch, Preset, Roughness, Scene, Surface, TossBatch,
+};
+use coinmc_lanes::{Lanes, WIDTH};
 use coinmc_testkit::{count_until, preset_launch};
 use std::ops::ControlFlow;
 
@@ -162,6 +166,35 @@ fn early_limits_end_the_same_tosses() {
             ..Settings::default()
         };
         agree(&scene, &settings, Moreau, &launches);
+    }
+}
+
+/// Coins on rough ground, whose rims it takes on where they are steep.
+#[test]
+fn rough_ground_ends_the_same_tosses() {
+    let ground = Roughness::new(0.05, 3e-3).expect("a usual ground");
+    let scene = scene(0.85, surface(0.5, 0.3, 0.003).with_roughness(Some(ground)));
+    let launches = launches(&scene, Preset::Clean, 10);
+    agree(&scene, &Settings::default(), Moreau, &launches);
+}
+
+/// Lanes are full: no flight is followed before as many fly as there are lanes for.
+#[test]
+fn all_lanes_fly_before_any_flight_is_followed() {
+    let scene = scene(0.85, surface(0.5, 0.3, 0.01));
+    let engine =
+        VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("valid settings");
+    for lanes in Lanes::wide() {
+        let mut batch = Batch::new(&engine.model, lanes);
+        for launch in launches(&scene, Preset::Clean, SLOTS as u64) {
+            batch.launch(&launch);
+        }
+        let all = batch.pool.flights.vacant();
+        for _ in 0..all / WIDTH {
+            assert!(batch.pool.flights.vacant() > 0 && batch.advance());
+        }
+        assert_eq!(batch.pool.flights.vacant(), 0, "{lanes}");
+        assert_eq!(batch.pool.departing.len(), SLOTS - all);
     }
 }
 

@@ -441,6 +441,28 @@ mod tests {
         assert!(!path.rolls(&rolls(&path.edge, 0.6)));
     }
 
+    /// A coin that rolls is shown to roll at once, and one that slips is shown to slide first.
+    #[test]
+    fn a_coin_that_rolls_is_not_shown_to_slide() {
+        let conical = conical(&Settings::default(), 0.4, 1e-3, 0.0);
+        let toss = heads_up(true);
+        let units = conical.model(&toss).units;
+        for (slip, expected) in [(0.0, EventKind::Sticking), (0.1, EventKind::Sliding)] {
+            let mut path = conical.path(&toss, Usage::default());
+            let mut state = rolls(&path.edge, 0.6);
+            state[0] = slip;
+            let mut seen = Recorder::default();
+            let mut adapter = ObserverAdapter {
+                observer: &mut seen,
+                place: &mut Place::origin([1.0, 0.0]),
+                heads_up: true,
+                units: &units,
+            };
+            path.follow(&mut state, FromRim::Rocking, &mut adapter);
+            assert_eq!(seen.0[0].kind, expected);
+        }
+    }
+
     /// A coin on its edge is followed for as many steps as are allowed, over which its energy never grows.
     #[test]
     fn steps_on_the_edge_are_counted() {

@@ -153,10 +153,11 @@ mod tests {
         for trial in 0..2000 {
             let mut dice = Dice::new(310, trial);
             let spins = dice.chance();
-            let (mode, slip) = if dice.chance() {
-                (Mode::Stick, 0.0)
+            let (mode, [slip_x, slip_y]) = if dice.chance() {
+                (Mode::Stick, [0.0; 2])
             } else {
-                (Mode::Slip, dice.between(0.1, 0.5))
+                let slip = dice.between(0.1, 0.5);
+                (Mode::Slip, [slip, slip * dice.between(-0.2, 0.2)])
             };
             let tilt = FRAC_PI_2 - dice.between(0.0, 0.01);
             let (s, c) = libm::sincos(tilt);
@@ -167,8 +168,8 @@ mod tests {
                 dice.between(-0.01, 0.01),
                 along * s + about * c,
                 along * c - about * s,
-                slip,
-                0.0,
+                slip_x,
+                slip_y,
             ];
             let now = dynamics.rates(&state, mode);
             let held = turning(&state, &now.state)[usize::from(!spins)];

@@ -249,17 +249,17 @@ mod tests {
         };
         let mean = (0..5).map(|i| relative(i) * relative(i)).sum::<f64>() / 5.0;
         assert!((trial.error / mean - 1.0).abs() < 1e-6, "{mean} {trial:?}");
-        // an even number of components
+        // an even number of components, in either order
         let pair = |[a, b]: &[f64; 2]| [-a * a, a * b];
-        let even = step(
-            &[start[0], start[1]],
-            &pair(&[start[0], start[1]]),
-            h,
-            1e-3,
-            pair,
-        );
+        let reversed = |[b, a]: &[f64; 2]| [a * b, -a * a];
+        let [a, b, ..] = start;
         let mean = (0..2).map(|i| relative(i) * relative(i)).sum::<f64>() / 2.0;
-        assert!((even.error / mean - 1.0).abs() < 1e-6, "{mean} {even:?}");
+        for even in [
+            step(&[a, b], &pair(&[a, b]), h, 1e-3, pair),
+            step(&[b, a], &reversed(&[b, a]), h, 1e-3, reversed),
+        ] {
+            assert!((even.error / mean - 1.0).abs() < 1e-6, "{mean} {even:?}");
+        }
     }
 
     /// A step has nine tenths of the length that the error asks for, within a fifth and five times the last.

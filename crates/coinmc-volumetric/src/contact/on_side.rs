@@ -429,6 +429,24 @@ pub(crate) mod tests {
         assert!(seen[1] > 100 && seen[2] > 100, "{seen:?}");
     }
 
+    /// A coin that rests on its side on a slope topples over its lower rim where the pull at its centre, at the height R,
+    /// has more moment about it than the weight with the lever h.
+    #[test]
+    fn a_coin_on_its_side_topples_downhill_on_a_steep_slope() {
+        let coin = Coin::cylinder(0.3, 0.01).expect("a valid coin");
+        let surface = Surface::new(0.5, 0.4).expect("a valid surface");
+        let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
+        let model = model_of(&scene, &Settings::default());
+        let level = model.contact_solver(Usage::default());
+        for pull in [-0.2, -0.16, -0.14, -0.05, 0.05, 0.14, 0.16, 0.2] {
+            let dynamics = model.dynamics.pulled_by([pull, 0.02]);
+            let solver = level.with(&dynamics);
+            // the lowest rim of the folded frame is the one at −x
+            let found = [1.0, -1.0].map(|side| solver.tips(&[0.0; 4], side));
+            assert_eq!(found, [pull < -0.15, pull > 0.15], "{pull}");
+        }
+    }
+
     /// More energy than there was is taken from all velocities alike, and no other state is changed.
     #[test]
     fn a_capped_state_has_no_more_energy() {

@@ -127,6 +127,24 @@ mod tests {
         }
     }
 
+    /// In a unit of length of any size it takes the same time, and goes as far.
+    #[test]
+    fn a_stop_does_not_depend_on_the_unit_of_length() {
+        for b in [0.0, 1e-9, 1e-3, 1.0] {
+            let stop = RollingStop::with(0.5, b, 0.7);
+            for unit in [1e-9, 1e-4, 1e4, 1e9] {
+                let other = RollingStop::with(0.5 * unit, b, 0.7 * unit);
+                for (found, expected) in [
+                    (other.time, stop.time),
+                    (other.distance() / unit, stop.distance()),
+                    (other.left(0.5 * other.time), stop.left(0.5 * stop.time)),
+                ] {
+                    assert!((found / expected - 1.0).abs() < 1e-11, "{b} {unit}");
+                }
+            }
+        }
+    }
+
     /// The way is the integral of the speed, here by Simpson's rule.
     #[test]
     fn the_way_is_the_integral_of_the_speed() {

@@ -223,6 +223,8 @@ mod tests {
     use crate::body::Friction;
     use crate::contact::rim::{SLIP_X, SLIP_Y};
     use crate::contact::tests::{STILL, dynamics};
+    use crate::laws::Moreau;
+    use crate::model::Model;
     use crate::settings::Settings;
     use crate::toss::tests::{model, model_of};
     use coinmc_core::{Coin, Scene, Surface};
@@ -268,14 +270,52 @@ mod tests {
         assert!(stuck > 100 && started > 100, "{stuck} {started}");
     }
 
+    /// A coin on a surface where slip may jam.
+    fn sticky() -> Model<Moreau> {
+        let coin = Coin::cylinder(0.7, 0.01).expect("a valid coin");
+        let surface = Surface::new(0.5, 3.0).expect("a valid surface");
+        let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
+        model_of(&scene, &Settings::default())
+    }
+
+    /// Where a slip against that friction would jam, the point starts to slip the other way along x: as fast, and across
+    /// as it would.
+    #[test]
+    fn a_point_whose_slip_would_jam_starts_to_slip_the_other_way() {
+        let model = sticky();
+        let dynamics = &model.dynamics;
+        let solver = model.contact_solver(Usage::default());
+        let slow = solver.rules.stick_speed;
+        let mut jams = 0;
+        for trial in 0..4_000 {
+            let mut dice = Dice::new(559, trial);
+            let mut rate = || dice.between(-3.0, 3.0);
+            let still = [1.0 + 0.15 * rate(), rate(), rate(), rate(), 0.0, 0.0];
+            let held = dynamics.rates(&still, Mode::Stick);
+            if can_stick(dynamics, &held) {
+                continue;
+            }
+            let [fx, fy] = held
+                .friction
+                .map(|part| part / libm::hypot(held.friction[0], held.friction[1]));
+            let against = change_slip(dynamics, &still, -slow * fx, -slow * fy);
+            if dynamics.rates(&against, Mode::Slip).jam_margin >= LEAST_JAM_MARGIN {
+                continue;
+            }
+            jams += 1;
+            let phase = solver.choose_phase(still);
+            assert!(phase.mode == Mode::Slip && phase.now.jam_margin >= LEAST_JAM_MARGIN);
+            let [gx, gy] = [phase.state[SLIP_X], phase.state[SLIP_Y]];
+            assert!((gx - slow * fx).abs() < 1e-9 * slow && (gy + slow * fy).abs() < 1e-9 * slow);
+        }
+        assert!(jams > 50, "{jams}");
+    }
+
     /// Contact ends at once where the coin comes down flat or where its point would leave the surface; where a slip
     /// jams, an impulse without approach changes the slip; and otherwise nothing happens before the next step.
     #[test]
     fn a_state_without_a_step_is_left_at_once() {
-        let coin = Coin::cylinder(0.7, 0.01).expect("a valid coin");
-        let surface = Surface::new(0.5, 3.0).expect("a valid surface");
-        let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
-        let model = model_of(&scene, &Settings::default());
+        let model = sticky();
         let dynamics = &model.dynamics;
         let mut solver = model.contact_solver(Usage::default());
         let mut next = |tilt: f64, wy: f64| {

@@ -215,8 +215,84 @@ pub(crate) fn slip_speed<L: Lane>(state: &RimState<L>) -> L {
 mod tests {
     use super::*;
     use crate::body::Friction;
+    use crate::contact::phase::Phase;
     use crate::contact::tests::{STILL, dynamics};
+    use crate::contact::tilt_search::TiltSearch;
+    use crate::settings::Settings;
+    use crate::toss::tests::{generic_scene, model_of};
     use coinmc_testkit::Dice;
+
+    /// Wherever a step is searched for a rim that touches, at the side or level, its end has an event; and there is none
+    /// just before.
+    #[test]
+    fn a_step_to_where_a_rim_touches_has_an_event() {
+        let model = model_of(&generic_scene(|plane| plane), &Settings::default());
+        let (dynamics, rules) = (&model.dynamics, model.contact_rules());
+        let event = |from: f64, tilt: f64, rate: f64| {
+            let state = [from, rate, 0.0, 0.0, 0.0, 0.0];
+            let rates = dynamics.rates(&state, Mode::Stick);
+            let trial = StepTrial {
+                state,
+                rates: rates.state,
+                length: 0.01,
+                ceiling: 1.0,
+                retry: false,
+            };
+            let mut phase = Phase::none();
+            phase.state = state;
+            let mut end = state;
+            end[TILT] = tilt;
+            // a contact that presses and sticks
+            let now = Rates {
+                normal: 1.0,
+                press: 1.0,
+                ..Rates::none()
+            };
+            let happens = trial.has_event(dynamics, &rules, Mode::Stick, 0.01, &end, &now);
+            let found = TiltSearch::within(&phase, &end, 0.01, rules.side);
+            (happens, found.is_some())
+        };
+        let side = rules.side;
+        for (tilt, rate, touches) in [
+            (side - 2.0 * SIDE_ANGLE, 0.2, false),
+            (side - 0.5 * SIDE_ANGLE, 0.2, true),
+            (side - 0.5 * SIDE_ANGLE, -0.2, false),
+            (side + 0.5 * SIDE_ANGLE, 0.2, true),
+            (side + 2.0 * SIDE_ANGLE, 0.2, true),
+            (side + 2.0 * SIDE_ANGLE, -0.2, true),
+            (1.1 * FLAT, -0.2, false),
+            (0.9 * FLAT, -0.2, true),
+        ] {
+            let from = if tilt > 1.0 { side - 1e-3 } else { 1e-3 };
+            assert_eq!(event(from, tilt, rate), (touches, touches), "{tilt} {rate}");
+        }
+    }
+
+    /// Only friction ends a slip.
+    #[test]
+    fn friction_limits_the_steps_of_a_slip() {
+        let state = [1.0, 0.5, 0.0, 0.0, 0.3, 0.4];
+        let mut rates = [0.0; 6];
+        (rates[SLIP_X], rates[SLIP_Y]) = (-1.2, -1.6);
+        // .5 at 2
+        let stops = 0.25;
+        for (mu, mode, limited) in [
+            (0.3, Mode::Slip, true),
+            (0.3, Mode::Stick, false),
+            (0.0, Mode::Slip, false),
+        ] {
+            let friction = Friction {
+                mu,
+                contour: 0.0,
+                pivoting: 0.0,
+            };
+            let dynamics = dynamics(0.4, friction, STILL, false);
+            let length = step_limit(&dynamics, mode, &state, &rates, 1.0);
+            assert_eq!(length < stops, limited);
+            assert!(limited || length == 1.0);
+            assert_eq!(step_limit(&dynamics, mode, &state, &rates, 0.1), 0.1);
+        }
+    }
 
     /// The margin is positive exactly where the mode holds: the coin presses, and slip does not jam, or friction
     /// within μN suffices to stick; and it is the smaller of the two excesses.

@@ -195,6 +195,7 @@ mod tests {
     use super::*;
     use crate::contact::Usage;
     use crate::contact::on_side::tests::{rolls, rolls_plainly};
+    use crate::contact::place;
     use crate::place::Place;
     use crate::settings::Settings;
     use crate::toss::tests::{generic_scene, model_of};
@@ -294,6 +295,101 @@ mod tests {
         assert!(ways[0] > 1.5 * ways[1] && ways[3] > 1.5 * ways[2]);
     }
 
+    /// The pull of this table in a frame whose x axis is at the angle `heading` in the laboratory.
+    fn seen_from(tilt: &TableTilt, heading: f64) -> [f64; 2] {
+        let (sin, cos) = libm::sincos(heading);
+        let [ex, ey] = tilt.downhill().map(|e| e * tilt.slope());
+        [ex * cos + ey * sin, ey * cos - ex * sin]
+    }
+
+    /// Where these rates lead from `y` in a time, by many small steps of the classical Runge-Kutta method.
+    fn followed<const N: usize>(
+        rates: impl Fn(&[f64; N]) -> [f64; N],
+        mut y: [f64; N],
+        time: f64,
+    ) -> [f64; N] {
+        let count = 1_000;
+        let h = time / f64::from(count);
+        let ahead = |y: &[f64; N], k: &[f64; N], h: f64| {
+            std::array::from_fn::<f64, N, _>(|i| y[i] + h * k[i])
+        };
+        for _ in 0..count {
+            let k1 = rates(&y);
+            let k2 = rates(&ahead(&y, &k1, 0.5 * h));
+            let k3 = rates(&ahead(&y, &k2, 0.5 * h));
+            let k4 = rates(&ahead(&y, &k3, h));
+            y = std::array::from_fn(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+        }
+        y
+    }
+
+    /// So is a coin that rolls on its rim, leaning so much that its frame turns much faster than it does itself.
+    #[test]
+    fn a_coin_on_its_rim_rolls_as_the_pull_of_the_table_asks() {
+        let tilt = TableTilt::new(8.0, 40.0).expect("a valid tilt");
+        let surface = Surface::new(0.5, 1.5).and_then(|surface| surface.with_tilt(tilt));
+        let coin = Coin::cylinder(0.4, 0.01).expect("a valid coin");
+        let scene = Scene::new(coin, surface.expect("a valid surface"), 9.81);
+        let settings = Settings {
+            time_limit: 2.0,
+            ..Settings::default()
+        };
+        let model = model_of(&scene.expect("a valid scene"), &settings);
+        let (dynamics, pull) = (&model.dynamics, model.pull.expect("a pull"));
+        for (begun, start) in [
+            (0.4, [0.6, 0.0, 0.3, -1.4, 0.0, 0.0]),
+            (-2.0, [0.5, 0.1, -0.3, 1.3, 0.0, 0.0]),
+        ] {
+            let (mut motion, mut spin) = (Motion::still(), Spin::still());
+            place(dynamics, &start, &mut motion, &mut spin);
+            let (sin, cos) = libm::sincos(begun);
+            let mut at = Place::at([0.2, -0.1], [cos, sin]);
+            let mut seen = Recorder::default();
+            let mut adapter = ObserverAdapter {
+                observer: &mut seen,
+                place: &mut at,
+                heads_up: true,
+                units: &model.units,
+            };
+            let mut solver = model.contact_solver(Usage::default());
+            let exit = solver.follow_pulled(&pull, &mut motion, &mut spin, &mut adapter);
+            assert_eq!(exit, Exit::TimeLimit);
+            assert!(seen.0.iter().all(|event| event.kind == EventKind::Sticking));
+
+            // the state, the heading, and the place of the centre
+            let rates = |y: &[f64; 9]| {
+                let state = std::array::from_fn(|i| y[i]);
+                let pulled = dynamics.pulled_by(seen_from(&tilt, y[6]));
+                let [a, b, c, d, e, f] = pulled.rates(&state, Mode::Stick).state;
+                let (mut motion, mut spin) = (Motion::still(), Spin::still());
+                place(&pulled, &state, &mut motion, &mut spin);
+                let (sin, cos) = libm::sincos(y[6]);
+                let (x, y) = (
+                    motion.vx * cos - motion.vy * sin,
+                    motion.vx * sin + motion.vy * cos,
+                );
+                [a, b, c, d, e, f, -spin.turn / motion.sin, x, y]
+            };
+            let [a, b, c, d, e, f] = start;
+            let y = followed(rates, [a, b, c, d, e, f, begun, 0.2, -0.1], at.time);
+            let [px, py] = at.point(0.0, 0.0);
+            let (sin, cos) = libm::sincos(y[6]);
+            let [hx, hy] = at.direction(1.0, 0.0);
+            let off = [
+                px - y[7],
+                py - y[8],
+                hx - cos,
+                hy - sin,
+                motion.sin - libm::sin(y[0]),
+                spin.tilt - y[1],
+                spin.axial - y[2],
+                spin.turn - y[3],
+            ];
+            assert!((y[6] - begun).abs() > 3.0 && y[0] < 1.2, "{y:?}");
+            assert!(off.iter().all(|off| off.abs() < 2e-3), "{off:?}");
+        }
+    }
+
     /// A coin that slides and turns on its side of a tilted table is, after a while, where many small steps of the
     /// classical Runge-Kutta method in the laboratory take it. The pull of each step, taken in its middle, is good to
     /// second order.
@@ -327,9 +423,7 @@ mod tests {
             // v_x, v_y, ω_a, ω_z of the frame, its heading, and the place of the centre
             let rates = |y: &[f64; 7]| {
                 let (sin, cos) = libm::sincos(y[4]);
-                let [ex, ey] = tilt.downhill();
-                let slope = libm::tan(8.0_f64.to_radians());
-                let pull = [slope * (ex * cos + ey * sin), slope * (ey * cos - ex * sin)];
+                let pull = seen_from(&tilt, y[4]);
                 let state = [y[0], y[1], y[2], y[3]];
                 let [ax, ay, aa, az] =
                     line_rates(&dynamics.pulled_by(pull), &state, settings.stick_speed).rates;
@@ -337,21 +431,7 @@ mod tests {
                 [ax, ay, aa, az, state[3], x, y]
             };
             let [vx, vy, wa, wz] = start;
-            let mut y = [vx, vy, wa, wz, begun, 0.2, -0.1];
-            let count = 1_000;
-            let h = place.time / f64::from(count);
-            let ahead = |y: &[f64; 7], k: &[f64; 7], h: f64| {
-                std::array::from_fn::<f64, 7, _>(|i| y[i] + h * k[i])
-            };
-            for _ in 0..count {
-                let k1 = rates(&y);
-                let k2 = rates(&ahead(&y, &k1, 0.5 * h));
-                let k3 = rates(&ahead(&y, &k2, 0.5 * h));
-                let k4 = rates(&ahead(&y, &k3, h));
-                y = std::array::from_fn(|i| {
-                    y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i])
-                });
-            }
+            let y = followed(rates, [vx, vy, wa, wz, begun, 0.2, -0.1], place.time);
             let [px, py] = place.point(0.0, 0.0);
             let (sin, cos) = libm::sincos(y[4]);
             let [hx, hy] = place.direction(1.0, 0.0);

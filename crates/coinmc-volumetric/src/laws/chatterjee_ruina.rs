@@ -86,3 +86,55 @@ impl ImpactLaw for ChatterjeeRuina {
         p
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rigid::Rigid;
+    use coinmc_testkit::Dice;
+    use nalgebra::{Matrix3, Vector3};
+
+    /// p = (1 + e)p_I + κ(p_II − p_I), where p_I ends the approach without friction, p_II stops the contact point, and κ is
+    /// 1 or as large as friction allows: from what impulses do to the coin in vectors.
+    #[test]
+    fn the_impulse_goes_from_the_smooth_one_to_the_one_that_stops_as_far_as_friction_allows() {
+        let (mut stops, mut slides) = (0, 0);
+        for trial in 0..500 {
+            let mut dice = Dice::new(328, trial);
+            let body = Rigid::generic_body(dice.pick(&[0.0, 0.15]));
+            let friction = Friction {
+                mu: dice.between(0.05, 1.0),
+                contour: 0.0,
+                pivoting: 0.0,
+            };
+            let tilt = dice.between(0.2, 1.5);
+            let mut coin = Rigid::new(&body, tilt, dice.vector(1.0), dice.vector(2.0));
+            coin.velocity.z -= coin.at_contact().z + dice.between(0.3, 1.5);
+            let e = dice.between(0.0, 1.0);
+            let (motion, spin) = coin.folded(1.0, 1.0);
+            let point = motion.contact_point(&body, &spin);
+            let p = ChatterjeeRuina.impulse(&body, &friction, &point, e);
+
+            let before = coin.at_contact();
+            let moves = |impulse: Vector3<f64>| {
+                coin.pushed(impulse, Vector3::zeros()).at_contact() - before
+            };
+            let k = Matrix3::from_columns(&[Vector3::x(), Vector3::y(), Vector3::z()].map(moves));
+            let smooth = Vector3::z() * (-before.z / k.m33);
+            let way = -(k.try_inverse().expect("positive masses") * before) - smooth;
+            let rest = Vector3::new(p.x, p.y, p.z) - smooth * (1.0 + e);
+            let kappa = rest.dot(&way) / way.norm_squared();
+            assert!((rest - way * kappa).norm() < 1e-12, "{trial}");
+            let (size, limit) = (libm::hypot(p.x, p.y), friction.mu * p.z);
+            if (kappa - 1.0).abs() < 1e-9 {
+                stops += 1;
+                assert!(size < limit * (1.0 + 1e-9), "{trial}");
+            } else {
+                slides += 1;
+                assert!(0.0 < kappa && kappa < 1.0, "{trial}: {kappa}");
+                assert!((size / limit - 1.0).abs() < 1e-9, "{trial}");
+            }
+        }
+        assert!(stops > 50 && slides > 50, "{stops} {slides}");
+    }
+}

@@ -290,6 +290,7 @@ impl<L: Lane> Problem<L> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::laws::Stronge;
     use crate::rigid::Rigid;
     use coinmc_core::Coin;
     use coinmc_testkit::Dice;
@@ -352,6 +353,40 @@ mod tests {
         }
         let counts = [slides, sticks, held, runs];
         assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
+    }
+
+    /// Nothing in an impact knows a unit of speed: impulses are proportional to the velocities before it. With a power of
+    /// 2 that is exact, as no digit is rounded otherwise.
+    #[test]
+    fn impulses_are_proportional_to_the_velocities() {
+        let impulses = |trial: u64, unit: f64| {
+            let mut dice = Dice::new(327, trial);
+            let body = Rigid::generic_body(dice.pick(&[0.0, 0.15]));
+            let mut length = || dice.pick(&[0.0, 1.0]) * dice.scale(0.003, 0.2);
+            let friction = Friction {
+                contour: length(),
+                pivoting: length(),
+                mu: dice.between(0.05, 0.6),
+            };
+            let tilt = dice.between(0.2, 1.5);
+            let (velocity, omega) = (dice.vector(1.0), dice.vector(2.0));
+            let mut coin = Rigid::new(&body, tilt, velocity * unit, omega * unit);
+            coin.velocity.z -= coin.at_contact().z + unit;
+            let (motion, spin) = coin.folded(1.0, 1.0);
+            let point = motion.contact_point(&body, &spin);
+            let laws = [
+                Moreau.impulse(&body, &friction, &point, 0.4),
+                ChatterjeeRuina.impulse(&body, &friction, &point, 0.4),
+                Stronge.impulse(&body, &friction, &point, 0.4),
+            ];
+            laws.map(|p| [p.x, p.y, p.z, p.contour, p.pivoting].map(|part| part / unit))
+        };
+        for trial in 0..300 {
+            let expected = impulses(trial, 1.0);
+            for unit in [libm::exp2(-40.0), libm::exp2(40.0)] {
+                assert_eq!(impulses(trial, unit), expected, "{trial} {unit}");
+            }
+        }
     }
 
     /// Newton's step is φ/φ' of φ = μ p_z/|p_t| − 1, by differences: with and without friction lengths.

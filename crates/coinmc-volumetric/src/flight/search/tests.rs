@@ -103,6 +103,27 @@ fn steps_come_close_to_the_contact() {
     assert!(own > 0.01, "{own}");
 }
 
+/// A gap that widens from 0 stays open until the bound of its third derivative could have closed it: where
+/// f' t + f'' t²/2 = J t³/6.
+#[test]
+fn a_widening_gap_stays_open_as_long_as_its_third_derivative_allows() {
+    let body = body(0.4);
+    let orbit = lifting(&body, AIRLESS);
+    let bounds = bounds_of(&orbit, &body);
+    for (slope, curvature) in [(0.0, 0.03), (0.0, 0.2), (1e-3, 0.03)] {
+        let now = Gap {
+            slope,
+            curvature,
+            ..orbit.first_gap(&body)
+        };
+        let (jerk, until) = bounds.jerk(&body, now.sin, 1.0 / now.sin);
+        let step = widening_step(&body, &bounds, &now, 1.0 / now.sin);
+        assert!(0.0 < step && step < until, "{step} {until}");
+        let closes = now.slope + step * (now.curvature / 2.0 - step * jerk / 6.0);
+        assert!(closes.abs() < 1e-12, "{slope} {closes}");
+    }
+}
+
 /// A coin whose lowest point leaves the surface by its acceleration alone.
 fn lifting(body: &Body, drag: Drag) -> Orbit<f64> {
     let mut start = Motion::still();

@@ -399,3 +399,70 @@ fn modes_change_with_the_friction_and_the_velocity_at_the_event() {
         assert!(!evolution.switch(Event::EndOfImpact, &piece()));
     }
 }
+
+/// A slip that would have come to 0 later does not stick at what ends its piece before.
+#[test]
+fn a_slip_sticks_only_where_it_has_stopped() {
+    let body = Rigid::generic_body(0.0);
+    let friction = Friction {
+        mu: 0.4,
+        contour: 0.0,
+        pivoting: 0.0,
+    };
+    let point = ContactPoint::at(&body, libm::sincos(0.4), [1.0, 0.0, -1.0], [0.0; 2]);
+    for (event, sticks) in [
+        (Event::Length, true),
+        (Event::EndOfCompression, false),
+        (Event::Roll, false),
+        (Event::Pivot, false),
+        (Event::EndOfImpact, false),
+    ] {
+        let mut evolution = Evolution::new(&body, &friction, &point, 0.5);
+        let mut piece = evolution.piece(&evolution.now());
+        piece.course = Course::Stops {
+            x: -0.4,
+            y: 0.0,
+            length: 1.0,
+        };
+        evolution.switch(event, &piece);
+        assert_eq!(evolution.still, sticks, "{event:?}");
+    }
+}
+
+/// A rate that is 0 apart from rounding, on whichever side of it, does not end a piece on which it stays as it is.
+#[test]
+fn rounding_of_a_rate_ends_no_piece() {
+    let body = Rigid::generic_body(0.0);
+    let friction = Friction {
+        mu: 0.4,
+        contour: 0.1,
+        pivoting: 0.1,
+    };
+    let (s, c) = libm::sincos(0.4);
+    let point = ContactPoint::at(&body, (s, c), [1.0, 0.0, -1.0], [0.0; 2]);
+    for (sign, roll, pivot) in [
+        (1.0, 1e-16, 0.0),
+        (-1.0, 1e-16, 0.0),
+        (1.0, 0.0, 1e-16),
+        (-1.0, 0.0, 1e-16),
+    ] {
+        let mut evolution = Evolution::new(&body, &friction, &point, 0.5);
+        let t = &mut evolution.couplings.rates;
+        (t.roll, t.pivot) = (-sign * roll, -sign * pivot);
+        for rate in [&mut evolution.rates.roll, &mut evolution.rates.pivot] {
+            (rate.zero, rate.sign) = (false, sign);
+        }
+        let now = evolution.now();
+        let piece = Piece {
+            contour: Torque::NONE,
+            pivoting: Torque::NONE,
+            course: Course::Keeps,
+            x: -0.4,
+            y: 0.0,
+            ..evolution.piece(&now)
+        };
+        let path = evolution.path(&piece, &now);
+        let cut = evolution.cut(&path, &piece, &now);
+        assert_eq!(cut.event, Event::EndOfCompression, "{sign} {roll}");
+    }
+}
