@@ -173,7 +173,7 @@ mod tests {
     use crate::fit::Loss;
     use crate::fit::covariance::spread;
     use crate::fit::problem::Task;
-    use crate::fit::tests::{at_the_truth, model};
+    use crate::fit::tests::{at_bounces, model};
     use crate::synthetic::Synthetic;
 
     /// Through (2, ½) and (4, 1½), (4, 1) lies halfway, and (−1, ¾) and (−2, 1¾) have 1 at a quarter of the way.
@@ -194,20 +194,14 @@ mod tests {
 
     /// A profile of the restitution around the truth.
     fn profiled(test: impl Fn(&Profile, &Problem)) {
-        let film = Synthetic::default();
-        let drops = [film.film(&model()).unwrap()];
+        let drops = [Synthetic::default().film(&model()).unwrap()];
         let task = Task::new(model(), &drops, Loss::Square);
         let free = [
             Parameter::Restitution,
             Parameter::Friction,
             Parameter::PulseTime,
         ];
-        let mut best = at_the_truth(&task, &free);
-        best.point.shared = film.shared;
-        best.point.starts[0] = film.start;
-        best.weighing.frames[0] = 100;
-        best.weighing.sigma = [5e-4, 5e-4, 0.5_f64.to_radians()];
-        let best = best.minimise(40);
+        let best = at_bounces(&task, &free, 100).minimise(40);
         let mut spread = spread(&best).unwrap();
         spread.factor = 1.5;
         spread.inflation = vec![2.0; best.unknowns.len()];

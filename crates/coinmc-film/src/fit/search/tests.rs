@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::fit::Loss;
-use crate::fit::tests::{SIGMA, START, aloft, at_the_truth, model};
+use crate::fit::tests::{SIGMA, START, aloft, at_bounces, at_the_truth, model};
 use crate::synthetic::Synthetic;
 
 /// Impacts that follow each other closely are one bounce, however many they are.
@@ -45,9 +45,7 @@ fn the_window_ends_with_its_bounces_or_its_time() {
     let film = Synthetic::default();
     let drops = [film.film(&model()).unwrap()];
     let task = Task::new(model(), &drops, Loss::Square);
-    let mut problem = at_the_truth(&task, &[]);
-    problem.point.shared = film.shared;
-    problem.point.starts[0] = film.start;
+    let problem = at_bounces(&task, &[], drops[0].frames.len());
     let times = &task.times[0];
     let impacts = task.path(0, &problem.point, times.len()).unwrap().impacts_s;
     let step = 1.0 / film.rate_hz;
