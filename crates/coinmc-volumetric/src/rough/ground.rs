@@ -325,6 +325,47 @@ mod tests {
         assert!(squares <= 300.0 * 0.005 * 0.005, "{squares}");
     }
 
+    /// The top of the parabola through the middle and its neighbours, whether these were looked at or not: through
+    /// (−1, −.5), (0, 0) and (1, −.2) it is at .15/.7.
+    #[test]
+    fn the_top_lies_between_the_middle_and_its_neighbours() {
+        for side in [1.0, -1.0] {
+            let at = |k: f64| match side * k {
+                -1.0 => -0.5,
+                0.0 => 0.0,
+                1.0 => -0.2,
+                _ => -k * k,
+            };
+            for looked_at in [[true, true], [true, false], [false, true], [false, false]] {
+                let at_most = |k: f64| {
+                    let over = k.abs() == 1.0 && looked_at[usize::from(k > 0.0)];
+                    if over { 0.1 } else { at(k) }
+                };
+                let (k, top) = highest(0.5, at, at_most);
+                assert!(
+                    (k - side * 0.15 / 0.7).abs() < 1e-15,
+                    "{side} {looked_at:?}: {k}"
+                );
+                assert!((top - 0.5 * 0.15 * 0.15 / 0.7).abs() < 1e-15);
+            }
+        }
+    }
+
+    /// The rms curvature of the ground is √3 σ/ℓ². A rim that bends ten times as much follows it, and bridges nothing.
+    #[test]
+    fn a_rim_follows_ground_that_bends_a_tenth_as_much() {
+        let coin = Coin::cylinder(0.6, 1.0).expect("a valid coin");
+        for (length, height) in [(0.05, 0.02), (0.2, 0.001)] {
+            let ground = Ground::new(length, height, &Body::new(&coin));
+            let limit = 10.0 * 3.0_f64.sqrt() * ground.height / (ground.length * ground.length);
+            let bridges = |curvature| {
+                let found = ground.under_rim([0.3, 0.1], [1.0, 0.0], curvature);
+                found.bridge.is_some()
+            };
+            assert!(bridges(0.999 * limit) && !bridges(1.001 * limit));
+        }
+    }
+
     /// How much the heights under both rims differ: the root mean square of differences at random places, on waves much
     /// longer than the coin is thick; on short ones no more than the heights do.
     #[test]
