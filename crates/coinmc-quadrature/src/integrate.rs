@@ -253,3 +253,40 @@ impl UniformSource for SobolUniforms {
         unit_interval(self.words[self.places[dimension as usize]])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One evaluation, none of whose points is that of the origin; what has no face widens the interval of each up to 1.
+    #[test]
+    fn a_single_point_without_a_face_widens_every_interval() {
+        let method = Method::Tossed;
+        let found = single_point(method, |sample| {
+            assert_eq!(
+                sample.map(|at| at.last()).collect::<Vec<_>>(),
+                [unit_interval(1 << 63)]
+            );
+            Some(SampleSums {
+                sums: [0.25, 0.5, 0.0],
+                counts: true,
+            })
+        });
+        let found = found.unwrap();
+        assert_eq!(found.faces.map(|share| share.p), [0.25, 0.5, 0.0]);
+        assert_eq!(found.faces.map(|share| share.hi), [0.5, 0.75, 0.25]);
+        assert!(found.exact && found.evaluations == 1);
+    }
+
+    /// The quantity that is integrated out has the coordinate after those of the launch, in case it is drawn.
+    #[test]
+    fn the_last_coordinate_is_one_of_its_own() {
+        let sobol = Sobol::plain(3);
+        let points: Vec<_> = sobol.points(1..9).collect();
+        let sample = Sample::new(&sobol, &[6, 9], 1..9);
+        for (mut at, point) in sample.zip(points) {
+            let found = [at.uniform(6), at.uniform(9), at.last()];
+            assert_eq!(found, [0, 1, 2].map(|i: usize| unit_interval(point[i])));
+        }
+    }
+}

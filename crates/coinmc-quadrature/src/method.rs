@@ -325,4 +325,72 @@ mod tests {
             assert_eq!(of(&launches) == Some(Method::Arc), whole, "{turns}");
         }
     }
+
+    #[test]
+    fn names_are_those_of_files() {
+        let names = [
+            "zone",
+            "arc",
+            "over-azimuth",
+            "over-tilt",
+            "over-rate",
+            "over-velocity",
+            "over-height",
+            "tossed",
+        ];
+        assert_eq!(Method::ALL.map(Method::name), names);
+    }
+
+    /// Over the azimuth nothing but that dimension goes: the height of an isotropic axis stays.
+    #[test]
+    fn the_azimuth_is_the_dimension_that_is_integrated() {
+        let mut launches = Preset::Clean.distribution();
+        launches.spin = Spin::Components(
+            [Marginal::Uniform {
+                from: -1.0,
+                to: 1.0,
+            }; 3],
+        );
+        let mut expected = dimensions_used(&launches);
+        expected.retain(|dimension| *dimension != 1);
+        assert_eq!(expected[0], 0);
+        let over = Method::Over(Variable::Azimuth);
+        assert_eq!(over.dimensions(&launches), expected);
+        assert_eq!(over.dimensions_left(&launches), expected.len());
+    }
+
+    /// A coin that does not turn keeps its isotropic axis, whatever its moments are.
+    #[test]
+    fn no_spin_is_the_zone_rule() {
+        let mut launches = Preset::Clean.distribution();
+        launches.spin = Spin::About {
+            axis: Vector3::x_axis(),
+            rate_rad_s: Marginal::Constant(0.0),
+        };
+        assert_eq!(of(&launches), Some(Method::Zone));
+    }
+
+    /// Thousands of turns from any tilt are whole ones to rounding.
+    #[test]
+    fn rounding_of_many_turns_is_forgiven() {
+        let mut launches = Preset::CleanFlat.distribution();
+        for turns in [1.0, 7.0, 3000.0, 99_999.0] {
+            for from in [0.1, -1.7, 1e3] {
+                let to = from + turns * TAU;
+                launches.orientation = Orientation::Tilt(Marginal::Uniform { from, to });
+                assert_eq!(of(&launches), Some(Method::Arc), "{from} {turns}");
+            }
+        }
+    }
+
+    /// A rounded rim touches before D is passed, and a limit of time matters where a toss may reach it.
+    #[test]
+    fn rounded_rims_and_short_limits_have_no_closed_form() {
+        let launches = Preset::CleanFlat.distribution();
+        assert_eq!(Method::of(&scene(), &launches, 1e3), Some(Method::Arc));
+        assert_eq!(Method::of(&scene(), &launches, 1e-3), None);
+        let mut rounded = scene();
+        rounded.coin = rounded.coin.with_rim_radius(1e-3).unwrap();
+        assert_eq!(Method::of(&rounded, &launches, f64::INFINITY), None);
+    }
 }

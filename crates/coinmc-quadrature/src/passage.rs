@@ -235,4 +235,38 @@ mod tests {
             assert!((none - little).abs() < 1e-7 * none, "{none} {little}");
         }
     }
+
+    /// 8.5 standard deviations hold all numbers that 52 binary digits can give.
+    #[test]
+    fn the_support_holds_every_launch() {
+        assert_eq!(
+            support(&Marginal::Normal { mean: 2.0, sd: 0.5 }),
+            (-2.25, 6.25)
+        );
+        assert_eq!(
+            support(&Marginal::Uniform {
+                from: -1.0,
+                to: 3.0
+            }),
+            (-1.0, 3.0)
+        );
+        assert_eq!(support(&Marginal::Constant(4.0)), (4.0, 4.0));
+        let smallest = 0.5_f64.powi(53);
+        let normal = Marginal::Normal { mean: 0.0, sd: 1.0 };
+        assert!(normal.quantile(smallest) > -8.5);
+    }
+
+    /// Little drag for a long time slows a spin as much as more drag in less time: (1 − e^(−x))/x of the time.
+    #[test]
+    fn a_spin_slows_by_the_product_of_drag_and_time() {
+        for x in [1e-3_f64, 0.01, 1.0, 5.0] {
+            let share = -libm::expm1(-x) / x;
+            for k in [1e-12, 1e-10, 1e-3, 1.0, 1e6] {
+                let passage = passage(0.0, k);
+                let turned = passage.turning_time(x / k);
+                assert!((turned * k / x / share - 1.0).abs() < 1e-14, "{k} {x}");
+                assert!((passage.time_of_turning(turned) * k / x - 1.0).abs() < 1e-9);
+            }
+        }
+    }
 }

@@ -156,3 +156,19 @@ fn times(rows: &[u64], column: u64) -> u64 {
         product | u64::from((row & column).count_ones() & 1) << (63 - digit)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All 2^52 points are different; the next ones are the first ones again.
+    #[test]
+    fn after_the_last_point_comes_the_first() {
+        let sobol = Sobol::plain(3);
+        let last = 1_u64 << DIGITS;
+        let around: Vec<_> = sobol.points(last - 1..last + 1).collect();
+        let last_digit: Vec<_> = around[0][..3].iter().map(|word| word >> 12).collect();
+        assert!(last_digit.iter().all(|word| *word != 0));
+        assert_eq!(around[1], [0; DIMENSIONS]);
+    }
+}

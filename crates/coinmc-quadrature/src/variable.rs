@@ -93,3 +93,23 @@ pub(crate) fn upright(launches: &LaunchDistribution) -> LaunchDistribution {
     upright.velocity_m_s[..2].fill(Marginal::Constant(0.0));
     upright
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn descriptions_name_the_quantity() {
+        let all = [
+            (Variable::Azimuth, "azimuth"),
+            (Variable::Tilt, "tilt"),
+            (Variable::Rate, "rate"),
+            (Variable::Velocity, "vertical velocity"),
+            (Variable::Height, "height"),
+        ];
+        for (variable, word) in all {
+            let description = variable.description();
+            assert!(description.starts_with("the ") && description.contains(word));
+        }
+    }
+}

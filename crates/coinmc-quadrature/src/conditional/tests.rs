@@ -202,6 +202,184 @@ fn the_series_agrees_with_the_sum_over_turns() {
     }
 }
 
+/// The closed form over the azimuth is the share of azimuths about the spin that land on each face. With 1000 midpoints,
+/// each of two arcs is wrong by two at most.
+#[test]
+fn the_azimuth_is_the_mean_over_the_circle_about_the_spin() {
+    let clean = Preset::Clean.distribution();
+    let count = 1000;
+    for (number, (ratio, drag, gyroscopic)) in (0_u32..).zip([
+        (0.5, 0.0, true),
+        (2.0, 0.4, true),
+        (1.0, 0.0, false),
+        (1.0, 2.0, true),
+    ]) {
+        let scene = scene(ratio, drag, gyroscopic);
+        let conditional = Conditional::new(&scene, &clean, Variable::Azimuth);
+        for case in 0..6 {
+            let mut words = Stream::new(9, Domain::Launch, u64::from(number)).toss(case);
+            let mut between = |from: f64, to: f64, i| from + (to - from) * words.uniform(i);
+            let spin = if case == 0 {
+                Vector3::zeros()
+            } else {
+                Vector3::new(
+                    between(-40.0, 40.0, 0),
+                    between(-40.0, 40.0, 1),
+                    between(-40.0, 40.0, 2),
+                )
+            };
+            let along = between(-1.0, 1.0, 3);
+            let height_m = between(0.05, 0.5, 4);
+            let velocity_m_s = Vector3::new(0.0, 0.0, between(-1.0, 1.0, 5));
+            let launch = |axis: Vector3<f64>| Launch {
+                height_m,
+                velocity_m_s,
+                axis: UnitVector3::new_normalize(axis),
+                spin_rad_s: spin,
+            };
+            let about = spin.try_normalize(0.0).unwrap_or_else(Vector3::x);
+            let across = about.cross(&Vector3::new(0.3, -0.5, 0.8)).normalize();
+            let other = about.cross(&across);
+            let radius = (1.0 - along * along).sqrt();
+            let mut mean = [0.0; 3];
+            for i in 0..count {
+                let (sin, cos) = libm::sincos(TAU * (f64::from(i) + 0.5) / f64::from(count));
+                let axis = about * along + (across * cos + other * sin) * radius;
+                let face = at_passage(&scene, &launch(axis));
+                mean[Face::ALL.iter().position(|known| *known == face).unwrap()] += 1.0;
+            }
+            let drawn = launch(Vector3::new(radius, 0.0, along));
+            let closed = conditional.over_azimuth(&drawn);
+            assert!((closed.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+            for (closed, mean) in closed.iter().zip(mean) {
+                let error = (closed - mean / f64::from(count)).abs();
+                assert!(
+                    error <= 4.0 / f64::from(count),
+                    "{number} {case}: {closed} {mean}"
+                );
+            }
+        }
+    }
+}
+
+/// On the circle z = a + b cos φ heads shows above the border and tails below its opposite.
+#[test]
+fn shares_are_those_of_the_circle() {
+    for (border, along, across) in [
+        (0.3, 0.1, 0.8),
+        (0.5, -0.4, 0.3),
+        (0.2, 0.9, 0.05),
+        (0.4, 0.0, 0.2),
+    ] {
+        let count = 20_000;
+        let heights = (0..count)
+            .map(|i| along + across * libm::cos(TAU * (f64::from(i) + 0.5) / f64::from(count)));
+        let mut mean = [0.0; 3];
+        for z in heights {
+            mean[if z > border {
+                0
+            } else if z < -border {
+                1
+            } else {
+                2
+            }] += 1.0 / f64::from(count);
+        }
+        let shares = shares_of_circle(border, along, across);
+        assert!(
+            shares
+                .iter()
+                .zip(mean)
+                .all(|(share, mean)| (share - mean).abs() < 2e-4),
+            "{shares:?} {mean:?}"
+        );
+    }
+}
+
+/// A quantity that is spread over thousands of turns is drawn: one face has probability 1, that of a launch with the
+/// drawn value. Whether it is, does not depend on the values of the others.
+#[test]
+fn a_quantity_of_too_many_turns_is_drawn() {
+    let scene = scene(1.0, 0.0, true);
+    let launches = LaunchDistribution {
+        orientation: Orientation::Tilt(Marginal::Constant(0.4)),
+        height_m: Marginal::Constant(0.5),
+        velocity_m_s: [Marginal::Constant(0.0); 3],
+        spin: Spin::About {
+            axis: Vector3::y_axis(),
+            rate_rad_s: Marginal::Uniform {
+                from: -1e5,
+                to: 1e5,
+            },
+        },
+    };
+    let conditional = Conditional::new(&scene, &launches, Variable::Rate);
+    assert!(!conditional.is_integrable());
+    let mut seen = [0; 3];
+    for i in 0..60 {
+        let p = (f64::from(i) + 0.5) / 60.0;
+        let mut stream = Stream::new(3, Domain::Launch, 0).toss(0);
+        let faces = conditional.faces(&mut stream, p);
+        let mut at = Overridden {
+            stream: &mut stream,
+            variable: Variable::Rate,
+            p,
+        };
+        let face = at_passage(&scene, &launches.launch(&scene.coin, &mut at));
+        let place = Face::ALL.iter().position(|known| *known == face).unwrap();
+        let mut expected = [0.0; 3];
+        expected[place] = 1.0;
+        assert!(
+            faces.drawn && faces.p == expected,
+            "{i}: {faces:?} {face:?}"
+        );
+        seen[place] += 1;
+    }
+    assert!(seen.iter().all(|count| *count > 5), "{seen:?}");
+}
+
+/// Where a normal tilt or rate spreads the phase over a radian or more, its series gives shares that sum to 1, and
+/// those of many quantiles.
+#[test]
+fn a_wide_normal_quantity_is_the_mean_over_its_quantiles() {
+    let scene = scene(1.0, 0.0, true);
+    let wide = LaunchDistribution {
+        orientation: Orientation::Tilt(Marginal::Constant(0.4)),
+        height_m: Marginal::Constant(0.2),
+        velocity_m_s: [Marginal::Constant(0.0); 3],
+        spin: Spin::About {
+            axis: Vector3::y_axis(),
+            rate_rad_s: Marginal::Normal { mean: 9.0, sd: 6.0 },
+        },
+    };
+    let conditional = Conditional::new(&scene, &wide, Variable::Rate);
+    let mut stream = Stream::new(3, Domain::Launch, 0).toss(0);
+    let phases = Phases::new(
+        &conditional,
+        conditional.rest.launch(&scene.coin, &mut stream),
+    );
+    let normal = phases.wide_normal().expect("a wide phase");
+    // cos(tilt + rate·τ): the free fall takes τ
+    let fall = (2.0 * (0.2 - scene.coin.rim_distance_m()) / 9.81_f64).sqrt();
+    assert!((normal.sd - 6.0 * fall).abs() < 1e-12 && normal.sd > 1.0);
+    let closed = conditional.faces(&mut stream, 0.5).p;
+    assert!((closed.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    let count = 2000;
+    let mut mean = [0.0; 3];
+    for i in 0..count {
+        let mut at = Overridden {
+            stream: &mut stream,
+            variable: Variable::Rate,
+            p: (f64::from(i) + 0.5) / f64::from(count),
+        };
+        let face = at_passage(&scene, &wide.launch(&scene.coin, &mut at));
+        mean[Face::ALL.iter().position(|known| *known == face).unwrap()] += 1.0 / f64::from(count);
+    }
+    assert!(
+        closed.iter().zip(mean).all(|(a, b)| (a - b).abs() < 0.01),
+        "{closed:?} {mean:?}"
+    );
+}
+
 /// The uniforms of a toss, with that of one quantity replaced.
 struct Overridden<'a> {
     stream: &'a mut coinmc_core::TossUniforms,
