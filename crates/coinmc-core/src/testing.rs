@@ -103,6 +103,8 @@ impl Observer for Notes {
     }
 
     fn sample(&mut self, state: &State) {
+        // a fall from 1 m has five; one that goes on for ever must not fill the memory
+        assert!(self.samples.len() < 100, "sampled beyond the end");
         self.samples.push(*state);
     }
 
