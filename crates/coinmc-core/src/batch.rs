@@ -94,3 +94,125 @@ pub trait TossBatch {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::launches;
+
+    /// A toss in flight: its number, its launch, and the steps that it still takes.
+    type Flying = (u64, Launch, u32);
+
+    /// Tosses that take from one step to five and end as they began. It refuses what its caller must not
+    /// do: launch without room, or work on when all is done.
+    struct Slots {
+        room: usize,
+        launched: u64,
+        flying: Vec<Flying>,
+        ended: Vec<(u64, Launch)>,
+        idle: u64,
+    }
+
+    impl Slots {
+        fn new(room: usize) -> Self {
+            Self {
+                room,
+                launched: 0,
+                flying: Vec::new(),
+                ended: Vec::new(),
+                idle: 0,
+            }
+        }
+    }
+
+    impl TossBatch for Slots {
+        type End = Launch;
+
+        fn has_room(&self) -> bool {
+            self.flying.len() + self.ended.len() < self.room
+        }
+
+        fn launch(&mut self, launch: &Launch) {
+            assert!(self.has_room());
+            let steps = 1 + [3, 0, 4, 1, 2][self.flying.len() % 5];
+            self.flying.push((self.launched, *launch, steps));
+            self.launched += 1;
+        }
+
+        fn advance(&mut self) -> bool {
+            if self.flying.is_empty() {
+                self.idle += 1;
+                // each time but the last an end was passed on
+                assert!(self.idle <= self.launched + 1, "all is done");
+                return false;
+            }
+            for (number, launch, steps) in &mut self.flying {
+                *steps -= 1;
+                if *steps == 0 {
+                    self.ended.push((*number, *launch));
+                }
+            }
+            self.flying.retain(|(_, _, steps)| *steps > 0);
+            true
+        }
+
+        fn ended(&mut self) -> &mut Vec<(u64, Launch)> {
+            &mut self.ended
+        }
+    }
+
+    /// Launches that may not be asked for more once they have ended.
+    fn once(launches: &[Launch]) -> impl Iterator<Item = Launch> {
+        let end = std::iter::once_with(|| -> Option<Launch> { None });
+        let after = std::iter::repeat_with(|| unreachable!("asked again after the end"));
+        let mut all = launches.iter().copied().map(Some).chain(end).chain(after);
+        std::iter::from_fn(move || all.next().flatten())
+    }
+
+    /// What is passed on to a sink that breaks at this call.
+    fn passed_on(room: usize, launches: &[Launch], breaks_at: usize) -> Vec<Vec<(u64, Launch)>> {
+        let mut calls = Vec::new();
+        Slots::new(room).toss_all_in_batch(once(launches), |ended| {
+            calls.push(ended.to_vec());
+            if calls.len() == breaks_at {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        calls
+    }
+
+    #[test]
+    fn every_launch_ends_once_under_its_number() {
+        let launches = launches(200);
+        for room in [1, 10, AT_ONCE, 100, 1000] {
+            for tosses in [0, 1, 200] {
+                let launches = &launches[..tosses];
+                let mut ended = passed_on(room, launches, usize::MAX).concat();
+                ended.sort_by_key(|(number, _)| *number);
+                let numbered: Vec<_> = (0..).zip(launches.iter().copied()).collect();
+                assert_eq!(ended, numbered);
+            }
+        }
+    }
+
+    /// Calls of the sink cost; but ends that take up all room are passed on.
+    #[test]
+    fn ends_are_passed_on_many_at_a_time_or_when_the_room_is_full() {
+        let launches = launches(200);
+        for (room, least) in [(10, 10), (100, AT_ONCE)] {
+            let calls = passed_on(room, &launches, usize::MAX);
+            let (last, others) = calls.split_last().unwrap();
+            assert!(!last.is_empty() && others.iter().all(|ends| ends.len() >= least));
+            assert!(others.len() > 1);
+        }
+    }
+
+    #[test]
+    fn a_sink_that_breaks_is_given_no_more() {
+        let launches = launches(200);
+        let all = passed_on(100, &launches, usize::MAX);
+        assert_eq!(passed_on(100, &launches, 2), all[..2]);
+    }
+}

@@ -303,3 +303,116 @@ impl Debug for EngineChoice {
         self.0.fmt(f)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::scene;
+    use crate::{Coin, Roughness};
+
+    /// Settings of engines that do nothing; each number is another engine.
+    #[derive(Debug, PartialEq)]
+    struct Idle<const ENGINE: u8>(EngineKind);
+
+    const fn descriptor(name: &'static str, kind: EngineKind) -> EngineDescriptor {
+        EngineDescriptor {
+            name,
+            doc: "Does nothing.",
+            kind,
+            stepped: false,
+            laws: &[],
+            unmodelled: &[],
+            remarks: &[],
+            finer: &[],
+            schema: || fields(vec![]),
+            read: |_| Err(EngineError::new("has no settings")),
+        }
+    }
+
+    static PLANAR: EngineDescriptor = descriptor("idle-flat", EngineKind::Planar);
+    static SPATIAL: EngineDescriptor = descriptor("idle", EngineKind::Spatial);
+    static CLOSED_FORM: EngineDescriptor = descriptor("idle-exact", EngineKind::ClosedForm);
+
+    impl<const ENGINE: u8> EngineSettings for Idle<ENGINE> {
+        fn descriptor(&self) -> &'static EngineDescriptor {
+            match self.0 {
+                EngineKind::Planar => &PLANAR,
+                EngineKind::Spatial => &SPATIAL,
+                EngineKind::ClosedForm => &CLOSED_FORM,
+            }
+        }
+
+        fn law(&self) -> &'static str {
+            "none"
+        }
+
+        fn explain(&self, _: &Scene) -> String {
+            String::new()
+        }
+
+        fn build(&self, _: &Scene) -> Result<Answer, EngineError> {
+            Ok(Answer::Exact([0.5, 0.5, 0.0]))
+        }
+    }
+
+    #[test]
+    fn closed_forms_make_no_tosses() {
+        for (kind, name, makes_tosses) in [
+            (EngineKind::Planar, "idle-flat", true),
+            (EngineKind::Spatial, "idle", true),
+            (EngineKind::ClosedForm, "idle-exact", false),
+        ] {
+            let choice = EngineChoice::new(Idle::<0>(kind));
+            assert_eq!((choice.name(), choice.makes_tosses()), (name, makes_tosses));
+        }
+    }
+
+    #[test]
+    fn engines_are_equal_if_their_types_and_settings_are() {
+        let spatial = EngineChoice::new(Idle::<0>(EngineKind::Spatial));
+        assert_eq!(spatial, EngineChoice::new(Idle::<0>(EngineKind::Spatial)));
+        assert_ne!(spatial, EngineChoice::new(Idle::<0>(EngineKind::Planar)));
+        assert_ne!(spatial, EngineChoice::new(Idle::<1>(EngineKind::Spatial)));
+    }
+
+    #[test]
+    fn settings_are_found_by_their_type_alone() {
+        let choice = EngineChoice::new(Idle::<0>(EngineKind::Planar));
+        assert_eq!(choice.settings(), Some(&Idle::<0>(EngineKind::Planar)));
+        assert_eq!(choice.settings::<Idle<1>>(), None);
+    }
+
+    /// Quadrature replaces only engines that say that it may.
+    #[test]
+    fn an_engine_has_no_limit_of_flight_unless_it_says_so() {
+        let idle = Idle::<0>(EngineKind::Spatial);
+        assert_eq!(idle.flight_limit_s(&scene()), None);
+    }
+
+    #[test]
+    fn a_value_out_of_range_is_no_mismatch_with_the_schema() {
+        assert!(EngineError::mismatch("no such key").is_mismatch());
+        assert!(!EngineError::new("too large").is_mismatch());
+    }
+
+    /// P(side) on a plane is an upper bound for thin coins, and for these alone: on a real surface it is
+    /// right, and where a coin does not bounce it does not roll.
+    #[test]
+    fn the_remark_on_planes_is_on_thin_coins_that_bounce_on_one() {
+        let applies = |ratio, surface| {
+            let coin = Coin::cylinder(ratio, 0.01).unwrap();
+            let scene = Scene::new(coin, surface, 9.81).unwrap();
+            (Remark::PERFECT_PLANE.applies)(&scene)
+        };
+        let plane = scene().surface;
+        let level = Roughness::new(0.0, 1e-3).unwrap();
+        let rough = Roughness::new(0.05, 1e-3).unwrap();
+        assert!(applies(0.1, plane) && applies(0.399, plane));
+        assert!(applies(0.1, plane.with_roughness(Some(level))));
+        assert!(!applies(0.4, plane) && !applies(0.6, plane));
+        for ratio in [0.1, 0.6] {
+            assert!(!applies(ratio, plane.with_roughness(Some(rough))));
+            assert!(!applies(ratio, plane.with_landing(Landing::Adhesive)));
+        }
+    }
+}

@@ -107,3 +107,34 @@ impl Engine for DynEngine {
         self.0.toss_erased(launches, sink);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Fall, Notes, launches, outcomes_alone};
+    use std::ops::ControlFlow;
+
+    #[test]
+    fn many_tosses_behind_the_pointer_are_those_of_the_engine() {
+        let launches = launches(100);
+        let mut outcomes = Vec::new();
+        let mut own = launches.iter().copied();
+        let source = LaunchSource::new(&mut own);
+        DynEngine::new(Fall).toss_many(&mut (), source, &mut |some| {
+            outcomes.extend_from_slice(some);
+            ControlFlow::Continue(())
+        });
+        assert_eq!(outcomes, outcomes_alone(&launches));
+    }
+
+    #[test]
+    fn an_observer_sees_the_same_through_the_pointer() {
+        let launch = launches(1)[0];
+        for enough in [3, usize::MAX] {
+            let (mut near, mut far) = (Notes::new(enough), Notes::new(enough));
+            let outcome = Fall.toss(&mut (), &launch, &mut near);
+            let erased = DynEngine::new(Fall).toss(&mut (), &launch, &mut far);
+            assert_eq!((erased, far), (outcome, near));
+        }
+    }
+}

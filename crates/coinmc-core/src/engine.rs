@@ -194,3 +194,169 @@ pub fn run_tosses<E: Engine>(
     });
     tally
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Fall, Notes, distribution, launches, outcomes_alone, scene, stream};
+    use crate::{Coin, Surface, TableTilt};
+
+    /// A coin of R = 2 m and H = 1 m at rest on the plane z = 0, its axis (2, 1, 2)/3.
+    fn resting() -> (Scene, State) {
+        let coin = Coin::cylinder(0.5, 2.0).unwrap();
+        let state = State {
+            time_s: 0.0,
+            position_m: Vector3::zeros(),
+            velocity_m_s: Vector3::zeros(),
+            axis: UnitVector3::new_normalize(Vector3::new(2.0, 1.0, 2.0)),
+            spin_rad_s: Vector3::zeros(),
+        };
+        (Scene::new(coin, scene().surface, 10.0).unwrap(), state)
+    }
+
+    /// By König's theorem the parts add: ½v², ½ω² times R²/2 about the axis, ½ω² times
+    /// (3R² + H²)/12 across it, and gz.
+    #[test]
+    fn energy_is_the_sum_of_motion_spin_tumbling_and_height() {
+        let (scene, rest) = resting();
+        let across = Vector3::new(1.0, 0.0, -1.0);
+        let moving = State {
+            velocity_m_s: Vector3::new(1.0, -2.0, 2.0),
+            ..rest
+        };
+        let spinning = State {
+            spin_rad_s: rest.axis.into_inner() * 3.0,
+            ..rest
+        };
+        let tumbling = State {
+            spin_rad_s: across * 6.0,
+            ..rest
+        };
+        let raised = State {
+            position_m: Vector3::new(5.0, -4.0, 0.25),
+            ..rest
+        };
+        let all = State {
+            position_m: raised.position_m,
+            velocity_m_s: moving.velocity_m_s,
+            spin_rad_s: spinning.spin_rad_s + tumbling.spin_rad_s,
+            ..rest
+        };
+        let [v, spin, tumble, z] = [9.0 / 2.0, 9.0, 36.0 * 13.0 / 12.0, 2.5];
+        for (state, expected) in [
+            (rest, 0.0),
+            (moving, v),
+            (spinning, spin),
+            (tumbling, tumble),
+            (raised, z),
+            (all, v + spin + tumble + z),
+        ] {
+            let energy = state.energy_j_kg(&scene);
+            // some ten roundings of numbers up to 55
+            assert!((energy - expected).abs() < 1e-13, "{energy} {expected}");
+        }
+    }
+
+    #[test]
+    fn a_falling_coin_keeps_its_energy() {
+        let mut notes = Notes::new(usize::MAX);
+        Fall.toss(&mut (), &launches(1)[0], &mut notes);
+        assert_eq!(notes.samples.len(), 5);
+        for state in notes.samples {
+            // from rest at 1 m under 10 m/s²
+            assert!((state.energy_j_kg(&scene()) - 10.0).abs() < 1e-14);
+        }
+    }
+
+    /// Down a slope of 5° the potential falls by g sin β per metre, and rises by g cos β away from it.
+    #[test]
+    fn potential_falls_along_a_tilted_table() {
+        let tilt = TableTilt::new(5.0, 90.0).unwrap();
+        let surface = Surface::new(0.5, 0.3).unwrap().with_tilt(tilt).unwrap();
+        let (level, rest) = resting();
+        let tilted = Scene::new(level.coin, surface, 10.0).unwrap();
+        let at = |x, y, z| State {
+            position_m: Vector3::new(x, y, z),
+            ..rest
+        };
+        let (sin, cos) = libm::sincos(5.0_f64.to_radians());
+        for (state, on_level, on_tilted) in [
+            (at(0.0, 0.0, 2.0), 20.0, 20.0 * cos),
+            (at(0.0, 3.0, 0.0), 0.0, -30.0 * sin),
+            (at(3.0, 0.0, 0.0), 0.0, 0.0),
+        ] {
+            assert_eq!(state.potential_j_kg(&level), on_level);
+            assert!((state.potential_j_kg(&tilted) - on_tilted).abs() < 1e-14);
+        }
+    }
+
+    /// Passes these launches to the engine at once; the sink breaks at this call. What it was given.
+    fn passed_on(launches: &[Launch], breaks_at: usize) -> Vec<Vec<(u64, Outcome)>> {
+        let mut own = launches.iter().copied();
+        let mut calls = Vec::new();
+        Fall.toss_many(&mut (), LaunchSource::new(&mut own), &mut |outcomes| {
+            calls.push(outcomes.to_vec());
+            if calls.len() == breaks_at {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        calls
+    }
+
+    #[test]
+    fn many_tosses_are_the_single_ones_passed_on_some_at_a_time() {
+        let launches = launches(3 * AT_ONCE as u64);
+        for (tosses, last) in [(0, 0), (1, 1), (64, 32), (95, 31), (96, 32)] {
+            let launches = &launches[..tosses];
+            let calls = passed_on(launches, usize::MAX);
+            assert_eq!(calls.concat(), outcomes_alone(launches));
+            let sizes: Vec<usize> = calls.iter().map(Vec::len).collect();
+            assert_eq!(sizes.last().copied().unwrap_or(0), last);
+            assert!(sizes.iter().rev().skip(1).all(|&size| size == AT_ONCE));
+        }
+        let calls = passed_on(&launches, 2);
+        assert_eq!(calls.concat(), outcomes_alone(&launches)[..64]);
+    }
+
+    #[test]
+    fn each_toss_is_told_until_one_is_enough() {
+        let launches = launches(100);
+        let alone = outcomes_alone(&launches);
+        for enough in [1, 40, 100, 101] {
+            let mut told = Vec::new();
+            Fall.toss_all(
+                &mut (),
+                launches.iter().copied(),
+                |number, outcome: &Outcome| {
+                    told.push((number, *outcome));
+                    if told.len() == enough {
+                        ControlFlow::Break(())
+                    } else {
+                        ControlFlow::Continue(())
+                    }
+                },
+            );
+            assert_eq!(told, alone[..enough.min(100)]);
+        }
+    }
+
+    #[test]
+    fn tallies_of_parts_of_a_run_add_to_that_of_the_whole() {
+        let run = |tosses| {
+            let (scene, launches, stream) = (scene(), distribution(), stream());
+            run_tosses(&Fall, &mut (), &scene, &launches, &stream, tosses)
+        };
+        let mut alone = Tally::default();
+        for (launch, (_, outcome)) in launches(100).iter().zip(outcomes_alone(&launches(100))) {
+            alone.add_started(&outcome, launch.up());
+        }
+        let whole = run(0..100);
+        assert_eq!(whole, alone);
+        // a coin that does not turn shows the face that was up
+        assert_eq!((whole.tosses(), whole.same), (100, 100));
+        assert!(whole.heads > 0 && whole.tails > 0);
+        assert_eq!(run(0..37).checked_merge(&run(37..100)), Some(whole));
+    }
+}

@@ -43,6 +43,8 @@ pub mod schema;
 mod side_ending;
 mod surface;
 mod tally;
+#[cfg(test)]
+mod testing;
 mod tilt;
 
 pub use batch::TossBatch;

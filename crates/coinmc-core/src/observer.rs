@@ -196,3 +196,100 @@ impl Observer for DynObserver<'_> {
         self.0.is_done()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Fall, Notes, launches};
+    use crate::{Engine, EventKind};
+    use nalgebra::Vector3;
+
+    fn at(time_s: f64) -> State {
+        State {
+            time_s,
+            position_m: Vector3::zeros(),
+            velocity_m_s: Vector3::zeros(),
+            axis: Vector3::z_axis(),
+            spin_rad_s: Vector3::zeros(),
+        }
+    }
+
+    /// Asks for these instants, one after another, and notes what it is shown.
+    struct Asks<'a>(&'a [f64], Vec<f64>);
+
+    impl Observer for Asks<'_> {
+        fn event(&mut self, _: &Event) {}
+
+        fn wants_at_s(&self) -> f64 {
+            self.0.get(self.1.len()).copied().unwrap_or(f64::INFINITY)
+        }
+
+        fn sample(&mut self, state: &State) {
+            self.1.push(state.time_s);
+        }
+    }
+
+    /// What is shown between 1 s and 2 s to an observer that asks for these instants.
+    fn shown(instants: &[f64]) -> Vec<f64> {
+        let mut asks = Asks(instants, Vec::new());
+        sample_between(&mut asks, 1.0, 2.0, at);
+        asks.1
+    }
+
+    #[test]
+    fn a_piece_shows_its_start_and_what_follows_but_not_its_end() {
+        assert_eq!(shown(&[1.0, 1.5, 1.99, 2.0]), [1.0, 1.5, 1.99]);
+        assert_eq!(shown(&[1.5, 3.0]), [1.5]);
+        assert!(shown(&[2.0]).is_empty() && shown(&[2.5]).is_empty());
+    }
+
+    #[test]
+    fn no_request_blocks_a_toss() {
+        assert!(shown(&[0.5, 1.5]).is_empty() && shown(&[f64::NAN, 1.5]).is_empty());
+        assert_eq!(shown(&[1.5, 1.5, 1.75]), [1.5]);
+        assert_eq!(shown(&[1.5, 1.25, 1.75]), [1.5]);
+        assert_eq!(shown(&[1.5, f64::NAN, 1.75]), [1.5]);
+    }
+
+    #[test]
+    fn an_inactive_observer_costs_no_state() {
+        struct Inactive;
+        impl Observer for Inactive {
+            const ACTIVE: bool = false;
+            fn event(&mut self, _: &Event) {}
+            fn wants_at_s(&self) -> f64 {
+                1.5
+            }
+        }
+        sample_between(&mut Inactive, 1.0, 2.0, |_| unreachable!("nobody looks"));
+    }
+
+    #[test]
+    fn an_observer_of_events_alone_asks_for_no_instant_and_sees_the_end() {
+        struct Kinds(Vec<EventKind>);
+        impl Observer for Kinds {
+            fn event(&mut self, event: &Event) {
+                self.0.push(event.kind);
+            }
+        }
+        let mut kinds = Kinds(Vec::new());
+        assert_eq!(kinds.wants_at_s(), f64::INFINITY);
+        Fall.toss(&mut (), &launches(1)[0], &mut kinds);
+        assert_eq!(kinds.0, [EventKind::Launched, EventKind::Ended]);
+    }
+
+    /// From 1 m a coin falls for 0.447 s.
+    #[test]
+    fn an_observer_sees_the_same_through_a_reference_and_a_pointer() {
+        let launch = launches(1)[0];
+        for (enough, events) in [(3, 1), (usize::MAX, 2)] {
+            let [mut own, mut lent, mut erased] = [(); 3].map(|()| Notes::new(enough));
+            let outcome = Fall.toss(&mut (), &launch, &mut own);
+            assert_eq!((own.events.len(), own.samples.len()), (events, 5));
+            assert_eq!(Fall.toss(&mut (), &launch, &mut &mut lent), outcome);
+            let pointer = &mut DynObserver::new(&mut erased);
+            assert_eq!(Fall.toss(&mut (), &launch, pointer), outcome);
+            assert_eq!((&lent, &erased), (&own, &own));
+        }
+    }
+}

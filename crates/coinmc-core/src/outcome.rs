@@ -119,3 +119,32 @@ impl Outcome {
         !matches!(self.ended, Ended::Decided(_) | Ended::Left)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The names are part of configs and of files of results.
+    #[test]
+    fn faces_have_their_names_in_files() {
+        assert_eq!(Face::ALL.map(Face::name), ["heads", "tails", "side"]);
+        for face in Face::ALL {
+            assert_eq!(Face::named(face.name()), Some(face));
+        }
+        assert!(Face::named("Heads").is_none() && Face::named("").is_none());
+    }
+
+    #[test]
+    fn only_a_toss_that_was_given_up_is_undecided() {
+        let undecided = |ended| {
+            let decided = Outcome::decided(Face::Side);
+            Outcome { ended, ..decided }.is_undecided()
+        };
+        for face in Face::ALL {
+            assert!(!undecided(Ended::Decided(face)));
+        }
+        assert!(!undecided(Ended::Left));
+        assert!(undecided(Ended::TimeLimit) && undecided(Ended::ImpactLimit));
+        assert!(undecided(Ended::NeverSettles) && undecided(Ended::Failed));
+    }
+}

@@ -123,3 +123,52 @@ fn short(x: f64) -> String {
         format!("{x:e}")
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_end_is_in_or_out_as_the_bounds_say() {
+        let half_open = Bounds {
+            open: (false, true),
+            ..Bounds::closed(1.0, 2.0)
+        };
+        for (bounds, low, high) in [
+            (Bounds::closed(1.0, 2.0), true, true),
+            (Bounds::open(1.0, 2.0), false, false),
+            (half_open, true, false),
+        ] {
+            assert_eq!((bounds.contains(1.0), bounds.contains(2.0)), (low, high));
+            assert_eq!(bounds.check("x", 1.0).is_ok(), low);
+            assert!(bounds.check("x", 1.5).is_ok());
+            for bad in [0.999, 2.001, f64::NAN, f64::INFINITY] {
+                assert!(bounds.check("x", bad).is_err(), "{bad}");
+            }
+        }
+    }
+
+    #[test]
+    fn whole_numbers_from_the_smallest_to_the_largest() {
+        let whole = Whole { low: 2, high: 4 };
+        for (number, ok) in [(1_u32, false), (2, true), (4, true), (5, false)] {
+            assert_eq!(whole.check("n", number).is_ok(), ok, "{number}");
+        }
+        let error = whole.check("n", 7_u32).unwrap_err().to_string();
+        assert_eq!(error, "n must be from 2 to 4, not 7");
+    }
+
+    /// Messages give limits as people write them: powers of ten only for very small and large ones.
+    #[test]
+    fn limits_are_written_as_people_do() {
+        for (low, high, text) in [
+            (0.0, 1e-12, "from 0 to 1e-12"),
+            (-0.5, 99_999.0, "from -0.5 to 99999"),
+            (0.001, 1e5, "from 0.001 to 1e5"),
+            (0.000_9, 2.5e6, "from 9e-4 to 2.5e6"),
+        ] {
+            assert_eq!(Bounds::closed(low, high).to_string(), text);
+        }
+        assert_eq!(Bounds::open(0.0, 1.0).to_string(), "above 0 and below 1");
+    }
+}

@@ -177,3 +177,31 @@ impl TableKind {
         self.fields.iter().find(|field| field.name == name)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_field_is_found_by_its_name() {
+        let table = fields(vec![
+            count("steps", "Steps.", 10),
+            flag("ccd", "Whether.", true),
+        ]);
+        assert_eq!(table.field("steps").unwrap().doc, "Steps.");
+        assert_eq!(table.field("ccd").unwrap().doc, "Whether.");
+        assert!(table.field("step").is_none());
+    }
+
+    #[test]
+    fn a_condition_reads_as_words_after_unless() {
+        const KINDS: [Condition; 3] = [
+            Condition::Given("preset"),
+            Condition::Word("spin", "none"),
+            Condition::Tag("orientation", "fixed"),
+        ];
+        let text = Condition::Either(&KINDS).text();
+        let expected = "`preset` is given or spin = \"none\" or the orientation is fixed";
+        assert_eq!(text, expected);
+    }
+}

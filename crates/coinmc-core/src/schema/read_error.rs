@@ -69,3 +69,25 @@ impl From<EngineError> for ReadError {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_keeps_its_remedy_at_each_key() {
+        let error = ReadError::new("too thin");
+        assert_eq!(error.help(), None);
+        let helped = error.with_help("make it thicker").at("ratio").at("coin");
+        assert_eq!(helped.help(), Some("make it thicker"));
+        assert_eq!(helped.to_string(), "too thin");
+    }
+
+    #[test]
+    fn a_mismatch_of_schema_and_reader_remains_one() {
+        let read = |error| ReadError::from(error).at("engine");
+        assert!(read(EngineError::mismatch("no such key")).is_mismatch());
+        assert!(!read(EngineError::new("too large")).is_mismatch());
+        assert!(!ReadError::new("too large").is_mismatch());
+    }
+}

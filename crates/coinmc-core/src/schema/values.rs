@@ -244,3 +244,107 @@ pub fn unlisted(key: &str, name: &str) -> EngineError {
 fn missing(key: &str) -> EngineError {
     EngineError::mismatch(format_args!("`{key}` is not what its schema promises"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Landing;
+
+    /// One value of each kind under the name of its kind.
+    fn values() -> Values {
+        let law = Values::new(vec![("k", Value::Number(2.0))]);
+        Values::new(vec![
+            ("number", Value::Number(0.5)),
+            ("numbers", Value::Numbers(vec![3.0, 1.0, 3.0])),
+            ("integer", Value::Integer(300)),
+            ("on", Value::Boolean(true)),
+            ("off", Value::Boolean(false)),
+            ("word", Value::Word("adhesive")),
+            ("texts", Value::Texts(vec!["a.csv".into(), "b.csv".into()])),
+            (
+                "tagged",
+                Value::Tagged("spring", Box::new(Value::Table(law.clone()))),
+            ),
+            (
+                "tagged-number",
+                Value::Tagged("spring", Box::new(Value::Number(1.0))),
+            ),
+            ("table", Value::Table(law)),
+        ])
+    }
+
+    #[test]
+    fn each_kind_is_read_as_it_was_given() {
+        let values = values();
+        assert_eq!(values.number("number"), Ok(0.5));
+        assert_eq!(values.numbers("numbers"), Ok(&[3.0, 1.0, 3.0][..]));
+        assert_eq!(values.integer::<u32>("integer"), Ok(300));
+        assert_eq!(values.boolean("on"), Ok(true));
+        assert_eq!(values.boolean("off"), Ok(false));
+        assert_eq!(values.word("word"), Ok("adhesive"));
+        assert_eq!(values.texts("texts").unwrap(), ["a.csv", "b.csv"]);
+        let table = values.table("table").unwrap().unwrap();
+        assert_eq!(table.number("k"), Ok(2.0));
+    }
+
+    #[test]
+    fn an_alternative_has_its_name_and_its_values() {
+        let values = values();
+        let (name, inner) = values.named("word").unwrap();
+        assert_eq!((name, inner.entries().count()), ("adhesive", 0));
+        let (name, inner) = values.named("tagged").unwrap();
+        assert_eq!((name, inner.number("k")), ("spring", Ok(2.0)));
+        for bad in ["tagged-number", "number", "absent"] {
+            assert!(values.named(bad).unwrap_err().is_mismatch(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_word_chooses_the_member_of_that_name() {
+        let values = values();
+        let landing = values.one_of("word", Landing::ALL, Landing::name);
+        assert_eq!(landing, Ok(Landing::Adhesive));
+        let unknown = values.one_of("word", [Landing::Bouncing], Landing::name);
+        assert!(unknown.unwrap_err().to_string().contains("adhesive"));
+    }
+
+    #[test]
+    fn a_value_of_another_kind_is_a_mismatch() {
+        let values = values();
+        let errors = [
+            values.number("on").err(),
+            values.numbers("number").err(),
+            values.texts("word").err(),
+            values.integer::<u32>("number").err(),
+            values.boolean("word").err(),
+            values.word("on").err(),
+            values.table("tagged").err(),
+            // 300 is beyond a byte
+            values.integer::<u8>("integer").err(),
+        ];
+        for error in errors {
+            assert!(error.unwrap().is_mismatch());
+        }
+    }
+
+    #[test]
+    fn lists_and_tables_may_be_absent_and_single_values_may_not() {
+        let values = values();
+        assert_eq!(values.numbers("absent"), Ok(&[][..]));
+        assert!(values.texts("absent").unwrap().is_empty());
+        assert_eq!(values.table("absent"), Ok(None));
+        assert_eq!(values.optional("absent"), Ok(None));
+        assert!(values.number("absent").is_err() && values.boolean("absent").is_err());
+        assert!(values.integer::<u32>("absent").is_err() && values.word("absent").is_err());
+    }
+
+    #[test]
+    fn without_a_key_all_others_stay_in_order() {
+        let (whole, rest) = (values(), values().without("integer"));
+        assert!(rest.get("integer").is_none());
+        assert!(
+            rest.entries()
+                .eq(whole.entries().filter(|(key, _)| *key != "integer"))
+        );
+    }
+}
