@@ -257,6 +257,8 @@ impl UniformSource for SobolUniforms {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use coinmc_core::{Coin, Domain, Marginal, Orientation, Spin, Surface};
+    use nalgebra::Vector3;
 
     /// One evaluation, none of whose points is that of the origin; what has no face widens the interval of each up to 1.
     #[test]
@@ -288,5 +290,59 @@ mod tests {
             let found = [at.uniform(6), at.uniform(9), at.last()];
             assert_eq!(found, [0, 1, 2].map(|i: usize| unit_interval(point[i])));
         }
+    }
+
+    /// Every replicate has its own points, of one coordinate more than the launch uses, and each is evaluated once.
+    #[test]
+    fn replicates_are_scrambles_with_a_coordinate_to_spare() {
+        let scrambles = Stream::new(5, Domain::Launch, 0);
+        let goal = Goal {
+            confidence: 0.95,
+            half_width: 0.0,
+            evaluations: crate::MIN_EVALUATIONS,
+        };
+        let (mut evaluated, mut last) = (0, Vec::new());
+        let found = replicated(Method::Tossed, &[2], &scrambles, &goal, |sample| {
+            for at in sample {
+                evaluated += 1;
+                last.push(at.last());
+            }
+            Some(SampleSums {
+                sums: [0.0; 3],
+                counts: true,
+            })
+        });
+        assert_eq!(found.unwrap().evaluations, evaluated);
+        last.sort_by(f64::total_cmp);
+        last.dedup();
+        assert_eq!(last.len() as u64, evaluated);
+    }
+
+    /// Where a quantity was drawn, faces are counted, and the interval is that of counts.
+    #[test]
+    fn drawn_quantities_are_counts() {
+        let coin = Coin::cylinder(1.0, 0.01).unwrap();
+        let scene = Scene::new(coin, Surface::new(0.0, 0.0).unwrap(), 9.81).unwrap();
+        let counts = |rate: f64| {
+            let launches = LaunchDistribution {
+                height_m: Marginal::Uniform { from: 0.5, to: 0.6 },
+                velocity_m_s: [Marginal::Constant(0.0); 3],
+                orientation: Orientation::Tilt(Marginal::Constant(0.3)),
+                spin: Spin::About {
+                    axis: Vector3::y_axis(),
+                    rate_rad_s: Marginal::Uniform {
+                        from: -rate,
+                        to: rate,
+                    },
+                },
+            };
+            let conditional = Conditional::new(&scene, &launches, crate::Variable::Rate);
+            let sobol = Sobol::plain(2);
+            let sample = Sample::new(&sobol, &[6], 0..4);
+            in_closed_form(&conditional, sample, || true)
+                .unwrap()
+                .counts
+        };
+        assert!(counts(1e5) && !counts(10.0));
     }
 }

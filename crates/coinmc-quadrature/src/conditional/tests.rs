@@ -380,6 +380,49 @@ fn a_wide_normal_quantity_is_the_mean_over_its_quantiles() {
     );
 }
 
+/// A coin that starts at D with no speed upwards has no time to turn, at whatever rate: it lands on the face that is up.
+#[test]
+fn a_coin_without_time_to_turn_keeps_its_face() {
+    let scene = scene(1.0, 0.0, true);
+    for (tilt, expected) in [
+        (0.4, [1.0, 0.0, 0.0]),
+        (1.5, [0.0, 0.0, 1.0]),
+        (3.0, [0.0, 1.0, 0.0]),
+    ] {
+        let launches = LaunchDistribution {
+            orientation: Orientation::Tilt(Marginal::Constant(tilt)),
+            height_m: Marginal::Constant(scene.coin.rim_distance_m()),
+            velocity_m_s: [Marginal::Constant(0.0); 3],
+            spin: Spin::About {
+                axis: Vector3::y_axis(),
+                rate_rad_s: Marginal::Uniform { from: 1.0, to: 2.0 },
+            },
+        };
+        let conditional = Conditional::new(&scene, &launches, Variable::Rate);
+        let mut stream = Stream::new(3, Domain::Launch, 0).toss(0);
+        assert_eq!(conditional.faces(&mut stream, 0.5).p, expected, "{tilt}");
+    }
+}
+
+/// A phase of more than 1e9 has too few digits left for the sum over turns, however little it is spread.
+#[test]
+fn a_phase_without_digits_is_drawn() {
+    let scene = scene(1.0, 0.0, true);
+    for (rate, over) in [(1e8, true), (1e11, false), (-1e11, false)] {
+        let launches = LaunchDistribution {
+            orientation: Orientation::Tilt(Marginal::Uniform { from: 0.0, to: 1.0 }),
+            height_m: Marginal::Constant(1.0),
+            velocity_m_s: [Marginal::Constant(0.0); 3],
+            spin: Spin::About {
+                axis: Vector3::y_axis(),
+                rate_rad_s: Marginal::Constant(rate),
+            },
+        };
+        let conditional = Conditional::new(&scene, &launches, Variable::Tilt);
+        assert_eq!(conditional.is_integrable(), over, "{rate}");
+    }
+}
+
 /// The uniforms of a toss, with that of one quantity replaced.
 struct Overridden<'a> {
     stream: &'a mut coinmc_core::TossUniforms,
