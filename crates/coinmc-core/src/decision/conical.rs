@@ -98,3 +98,6 @@ impl DecisionRule {
             & (!side | below(other, -upper.half / other, upper.radius / other))
     }
 }
+
+#[cfg(test)]
+mod tests;
