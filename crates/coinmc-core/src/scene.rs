@@ -416,7 +416,7 @@ mod tests {
         let scene = Scene::new(coin.expect("a euro"), surface, 9.81)
             .expect("a scene")
             .with_drag(Drag::new(0.8, 0.06).expect("drag"));
-        let given = [
+        let given: [_; Scene::PARAMETERS.len()] = [
             ("ratio", 0.15),
             ("radius_m", 0.012),
             ("rim_radius_m", 3e-4),
