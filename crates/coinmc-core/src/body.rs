@@ -116,3 +116,61 @@ impl Units {
         self.length_m / self.time_s
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Surface;
+
+    fn coin(ratio: f64) -> Coin {
+        Coin::cylinder(ratio, 0.01).expect("a good coin")
+    }
+
+    /// R : H/2 : D = 4 : 3 : 5 and 3 : 4 : 5. The centre of the flat one is 3 high on a face and 4 on its
+    /// side, that of the tall one the other way round, and 5 on the rim.
+    #[test]
+    fn the_shallower_well_is_the_higher_of_the_two_ways_to_lie() {
+        for ratio in [2.0 * 3.0 / 4.0, 2.0 * 4.0 / 3.0] {
+            let body = Body::new(&coin(ratio));
+            assert!((body.shallower_well() - 0.2).abs() < 1e-15, "{ratio}");
+        }
+        // of all coins the one with R = H/2 is the hardest to turn over
+        let most = Body::new(&coin(2.0)).shallower_well();
+        assert!((most - (1.0 - 0.5_f64.sqrt())).abs() < 1e-15);
+    }
+
+    /// v²/2 + g z is g D at the balance on the rim.
+    #[test]
+    fn the_escape_speed_carries_a_coin_from_its_higher_rest_to_its_rim() {
+        for ratio in [0.1, 1.5, 2.0, 5.0] {
+            let body = Body::new(&coin(ratio));
+            let energy = 0.5 * body.escape_speed().powi(2) + body.radius.max(body.half);
+            assert!((energy - 1.0).abs() < 1e-15, "{ratio}");
+        }
+    }
+
+    #[test]
+    fn a_rounded_coin_is_as_wide_as_its_outer_radius() {
+        for rim_radius_m in [0.0, 1e-4, 3e-3] {
+            let coin = coin(1.0).with_rim_radius(rim_radius_m).expect("rounded");
+            let body = Body::new(&coin);
+            let outer_m = body.outer_radius() * coin.rim_distance_m();
+            // a few operations on a number of 1e-2
+            assert!((outer_m - 0.01).abs() < 1e-17, "{rim_radius_m} {outer_m}");
+        }
+    }
+
+    /// The unit of speed is what a fall through D/2 gives: v² = 2 g D/2.
+    #[test]
+    fn the_unit_of_speed_is_that_of_a_fall_through_half_a_rim_distance() {
+        let surface = Surface::new(0.5, 0.3).expect("a surface");
+        for gravity in [9.81, 1.62, 250.0] {
+            let scene = Scene::new(coin(0.2), surface, gravity).expect("a scene");
+            let units = Units::new(&scene);
+            let square = units.speed_m_s().powi(2);
+            assert!((square / (gravity * units.length_m) - 1.0).abs() < 1e-15);
+            // and after one unit of time a coin at rest has just that speed
+            assert!((gravity * units.time_s / units.speed_m_s() - 1.0).abs() < 1e-15);
+        }
+    }
+}

@@ -111,4 +111,73 @@ mod tests {
             assert!(rim.edge_barrier() <= 1.0 && rim.edge_barrier() > 0.9);
         }
     }
+
+    /// R = `radius`, and heads and tails at `distances` from the centre of mass, cm: a cylinder of two layers.
+    fn two_layers(radius: f64, distances: [f64; 2]) -> [LowerRim; 2] {
+        let [heads, tails] = distances;
+        let height = heads + tails;
+        let coin = Coin::cylinder(height / radius, 0.01 * radius).expect("a good coin");
+        let coin = coin.with_centre_of_mass((tails - heads) / (2.0 * height), None, None);
+        LowerRim::of(&coin.expect("a coin of two layers"))
+    }
+
+    /// To some ulp of numbers of order 1, which come from a few operations.
+    fn assert_same(found: f64, expected: f64) {
+        assert!((found - expected).abs() < 4e-15, "{found} {expected}");
+    }
+
+    /// R = 12, h = 5 and h' = 9: the rims are 13 and 15 = D from the centre. On its side the coin is as high
+    /// as R, on a face as h; so the depths of the wells are 13 - 5, 15 - 9 and, the shallowest, 13 - 12.
+    #[test]
+    fn a_loaded_coin_has_the_barriers_and_wells_of_its_two_triangles() {
+        let [on_tails, on_heads] = two_layers(12.0, [5.0, 9.0]);
+        for (rim, barrier, upper, half) in
+            [(on_tails, 15.0, 13.0, 9.0), (on_heads, 13.0, 15.0, 5.0)]
+        {
+            assert_same(rim.barrier(), barrier / 15.0);
+            assert_same(rim.upper_barrier(), upper / 15.0);
+            assert_same(rim.edge_barrier(), 13.0 / 15.0);
+            assert_same(rim.balance(), half / barrier);
+            assert_same(rim.shallowest_well(), 1.0 / 15.0);
+            assert_eq!(rim.on_edge(), (1.0, 0.0));
+            assert_same(rim.height_on_edge(), 12.0 / 15.0);
+        }
+    }
+
+    /// R = 12, h = 16 and h' = 35: the rims are 20 and 37 from the centre, and the wells 20 - 16, 37 - 35 and
+    /// 20 - 12 deep.
+    #[test]
+    fn the_shallowest_well_of_a_tall_loaded_coin_is_its_farther_face() {
+        for rim in two_layers(12.0, [16.0, 35.0]) {
+            assert_same(rim.shallowest_well(), 2.0 / 37.0);
+        }
+        let like: [f64; 2] = two_layers(12.0, [35.0, 16.0]).map(|rim| rim.shallowest_well());
+        assert_same(like[0], like[1]);
+    }
+
+    /// I_a/m = R²/2 and, of two layers, I_t/m = R²/4 + H²/12 - d² with d = (h' - h)/2: here 72 and
+    /// 36 + 196/12 - 4, at every scale.
+    #[test]
+    fn moments_are_in_units_of_the_farther_rims_distance() {
+        for scale in [1.0, 1e-3, 250.0] {
+            for rim in two_layers(12.0 * scale, [5.0 * scale, 9.0 * scale]) {
+                for body in [rim.body, rim.upper] {
+                    assert_same(body.ka, 72.0 / 225.0);
+                    assert_same(body.kt, (36.0 + 196.0 / 12.0 - 4.0) / 225.0);
+                }
+            }
+        }
+    }
+
+    /// A conical edge lies on the ground: the axis points down by the draft where the wider face is below.
+    #[test]
+    fn a_coin_on_its_edge_leans_by_its_draft() {
+        let coin = Coin::cylinder(1.0, 0.01).and_then(|coin| coin.with_draft(10.0));
+        let [on_tails, on_heads] =
+            LowerRim::of(&coin.expect("a conical coin")).map(|rim| rim.on_edge());
+        let (sin, cos) = libm::sincos(10.0_f64.to_radians());
+        assert_same(on_heads.0, cos);
+        assert_same(on_heads.1, -sin);
+        assert_eq!(on_tails, (on_heads.0, -on_heads.1));
+    }
 }

@@ -161,4 +161,29 @@ mod tests {
             "roughness wavelength 4e-5 m is too short for a coin of this radius: at least 5e-5 m (0.005 R)"
         );
     }
+
+    /// The profile a sin(2πx/L) crosses its mean upwards once per L. The mean square of a sine over whole
+    /// waves is a half.
+    #[test]
+    fn height_and_slope_of_one_long_wave() {
+        let (amplitude, length) = (2e-5, 3e-3);
+        let slope = amplitude * TAU / length / 2.0_f64.sqrt();
+        let wave = Roughness::new(slope, length).expect("a wave");
+        assert_eq!((wave.slope(), wave.wavelength_m()), (slope, length));
+        assert!((wave.height_m() / (amplitude / 2.0_f64.sqrt()) - 1.0).abs() < 1e-15);
+    }
+
+    /// s² = -C''(0) and, by Rice's formula, 1/λ = sqrt(-C''(0)/C(0))/2π, with C(r) = σ² exp(-r²/(2ℓ²)).
+    #[test]
+    fn slope_and_wavelength_follow_from_the_correlation() {
+        let ground = Roughness::new(0.07, 4e-3).expect("rough ground");
+        let (height, length) = (ground.height_m(), ground.correlation_length_m());
+        let correlation = |r: f64| height * height * libm::exp(-r * r / (2.0 * length * length));
+        // a second difference at h is off by h²/4ℓ² = 2.5e-7, and by round-off of some 1e-16 ℓ²/h² = 1e-10
+        let h = 1e-3 * length;
+        let curvature = 2.0 * (correlation(0.0) - correlation(h)) / (h * h);
+        assert!((curvature.sqrt() / ground.slope() - 1.0).abs() < 1e-6);
+        let crossings = (curvature / correlation(0.0)).sqrt() / TAU;
+        assert!((crossings * ground.wavelength_m() - 1.0).abs() < 1e-6);
+    }
 }

@@ -352,4 +352,104 @@ mod tests {
         assert!(on(0.0, 1e-9).unwrap().surface.roughness().is_none());
         assert!(matches!(on(0.05, 4e-5), Err(SurfaceError::Roughness(_))));
     }
+
+    fn on(surface: Surface, gravity: f64) -> Scene {
+        let coin = Coin::cylinder(0.2, 0.01).expect("a good coin");
+        Scene::new(coin, surface, gravity).expect("a good scene")
+    }
+
+    fn wood() -> Surface {
+        Surface::new(0.5, 0.3).expect("a good surface")
+    }
+
+    /// A coin that falls from rest for sqrt(D/g) falls by D/2, on every planet.
+    #[test]
+    fn the_time_scale_is_that_of_a_fall_through_half_a_rim_distance() {
+        for gravity in [1.62, 9.81, 24.8, 300.0] {
+            let scene = on(wood(), gravity);
+            assert_eq!(scene.gravity_m_s2(), gravity);
+            let fall = 0.5 * gravity * scene.time_scale_s().powi(2);
+            assert!((fall / (0.5 * scene.coin.rim_distance_m()) - 1.0).abs() < 1e-15);
+        }
+    }
+
+    /// A tilted table turns the weight and keeps its size: g sin β is left along the table, g cos β presses.
+    #[test]
+    fn a_tilted_table_splits_the_weight() {
+        let tilt = crate::TableTilt::new(9.0, 130.0).expect("a good tilt");
+        let scene = on(wood().with_tilt(tilt).expect("friction enough"), 9.81);
+        let (weight, pressed) = (scene.weight_m_s2(), scene.pressed_onto_table());
+        assert!((weight.norm() / 9.81 - 1.0).abs() < 1e-15);
+        let (sin, cos) = libm::sincos(9.0_f64.to_radians());
+        let [ex, ey] = tilt.downhill();
+        assert!((weight.z + 9.81 * cos).abs() < 1e-14);
+        assert!((weight.x * ex + weight.y * ey - 9.81 * sin).abs() < 1e-14);
+        assert!((pressed.gravity_m_s2() - 9.81 * cos).abs() < 1e-14);
+        // on a level table all of it presses
+        let level = on(wood(), 9.81);
+        assert_eq!(level.weight_m_s2(), Vector3::new(0.0, 0.0, -9.81));
+        assert_eq!(level.pressed_onto_table(), level);
+    }
+
+    #[test]
+    fn the_gyroscopic_torque_acts_unless_it_is_left_out() {
+        let scene = on(wood(), 9.81);
+        let without = scene.with_gyroscopic_torque(false);
+        assert!(scene.has_gyroscopic_torque() && !without.has_gyroscopic_torque());
+        assert_eq!(without.with_gyroscopic_torque(true), scene);
+    }
+
+    /// A scene of which no two numbers are alike is told in full, so that its toss can be repeated.
+    #[test]
+    fn a_result_states_every_number_of_its_scene() {
+        let roughness = crate::Roughness::new(0.03, 2e-3).expect("rough ground");
+        let tilt = crate::TableTilt::new(4.0, 25.0).expect("a good tilt");
+        let surface = Surface::new(0.55, 0.35)
+            .and_then(|surface| surface.with_friction_lengths(5e-5, 6e-6))
+            .and_then(|surface| surface.with_restitution_threshold(0.02))
+            .and_then(|surface| surface.with_speed_dependent_restitution(0.25, 0.7))
+            .and_then(|surface| surface.with_table_radius(0.4))
+            .and_then(|surface| surface.with_tilt(tilt))
+            .expect("a surface");
+        let coin = Coin::cylinder(0.15, 0.012).and_then(|coin| coin.with_rim_radius(3e-4));
+        let surface = surface.with_roughness(Some(roughness));
+        let scene = Scene::new(coin.expect("a euro"), surface, 9.81)
+            .expect("a scene")
+            .with_drag(Drag::new(0.8, 0.06).expect("drag"));
+        let given: [_; Scene::PARAMETERS.len()] = [
+            ("ratio", 0.15),
+            ("radius_m", 0.012),
+            ("rim_radius_m", 3e-4),
+            ("restitution", 0.55),
+            ("friction", 0.35),
+            ("rolling_friction_m", 5e-5),
+            ("pivoting_friction_m", 6e-6),
+            ("restitution_threshold_m_s", 0.02),
+            ("linear_drag_per_s", 0.8),
+            ("angular_drag_per_s", 0.06),
+            ("restitution_exponent", 0.25),
+            ("restitution_reference_m_s", 0.7),
+            ("roughness_slope", 0.03),
+            ("roughness_wavelength_m", 2e-3),
+            ("table_radius_m", 0.4),
+            ("table_tilt_deg", 4.0),
+            ("table_downhill_deg", 25.0),
+        ];
+        for (parameter, (name, value)) in Scene::PARAMETERS.iter().zip(given) {
+            assert_eq!((parameter.name, (parameter.value)(&scene)), (name, value));
+        }
+    }
+
+    /// Slope 0 is a plane whatever its waves, but a sweep over the slope has one wavelength for all of it.
+    #[test]
+    fn a_result_states_the_wavelength_of_a_plane_as_given() {
+        let plane = crate::Roughness::new(0.0, 2e-3).expect("a plane");
+        let scene = on(wood().with_roughness(Some(plane)), 9.81);
+        let wavelength = Scene::PARAMETERS
+            .iter()
+            .find(|parameter| parameter.name == "roughness_wavelength_m")
+            .expect("a column");
+        assert_eq!((wavelength.value)(&scene), 2e-3);
+        assert!(scene.surface.roughness().is_none());
+    }
 }

@@ -432,35 +432,4 @@ impl Surface {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn restitution_falls_as_a_power_of_the_speed_from_the_reference_on() {
-        let constant = Surface::new(0.5, 0.3).unwrap();
-        assert_eq!(
-            (constant.restitution_at(0.0), constant.restitution_at(9.0)),
-            (0.5, 0.5)
-        );
-        let plastic = constant
-            .with_speed_dependent_restitution(0.25, 2.0)
-            .unwrap();
-        for (speed, expected) in [
-            (2.0, 0.5),
-            (32.0, 0.25),
-            (1.9, 0.5),
-            (1e-9, 0.5),
-            (0.0, 0.5),
-        ] {
-            assert!(
-                (plastic.restitution_at(speed) - expected).abs() < 1e-15,
-                "{speed}"
-            );
-        }
-        let cut = plastic.with_restitution_threshold(0.5).unwrap();
-        assert_eq!(
-            (cut.restitution_at(0.4), cut.restitution_at(2.0)),
-            (0.0, 0.5)
-        );
-    }
-}
+mod tests;
