@@ -162,4 +162,22 @@ mod tests {
         assert_eq!(loaded.with_draft(5.0), Err(CoinError::LoadedShape));
         assert_eq!(loaded.with_rim_radius(1e-3), Err(CoinError::LoadedShape));
     }
+
+    /// 10 g: I = 0.01 kg times the gyration.
+    #[test]
+    fn either_moment_may_be_given_alone() {
+        let [plain, axial, transverse] = [(None, None), (Some(6e-7), None), (None, Some(5e-7))]
+            .map(|(axial, transverse)| coin().with_centre_of_mass(0.1, axial, transverse))
+            .map(|found| found.expect("a loaded coin"));
+        assert!((axial.axial_gyration_m2() / 6e-5 - 1.0).abs() < 1e-14);
+        assert_eq!(
+            axial.transverse_gyration_m2(),
+            plain.transverse_gyration_m2()
+        );
+        assert!((transverse.transverse_gyration_m2() / 5e-5 - 1.0).abs() < 1e-14);
+        assert_eq!(transverse.axial_gyration_m2(), plain.axial_gyration_m2());
+        for loaded in [plain, axial, transverse] {
+            assert_eq!(loaded.centre_over_height(), 0.1);
+        }
+    }
 }
