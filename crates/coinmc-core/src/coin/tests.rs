@@ -32,9 +32,9 @@ fn bad_sizes_are_refused() {
     }
 }
 
-/// A coin of 20 g, R = 2 m, so that no power of R or m is 1.
+/// A coin of 20 g, R = 3 m: no power of R is 1, and R² is not 2R.
 fn heavy(ratio: f64) -> Coin {
-    let coin = Coin::cylinder(ratio, 2.0).and_then(|coin| coin.with_mass(0.02));
+    let coin = Coin::cylinder(ratio, 3.0).and_then(|coin| coin.with_mass(0.02));
     coin.expect("a good coin")
 }
 
@@ -49,18 +49,18 @@ fn close(found: f64, expected: f64) -> bool {
 
 #[test]
 fn a_refused_moment_is_named_with_its_bounds_in_kg_m2() {
-    // m R² = 0.08, I_a of a uniform coin 0.04, m H²/4 = 0.0288 with H = 2.4 m
+    // m R² = 0.18, I_a of a uniform coin 0.09, m H²/4 = 0.0648 with H = 3.6 m
     let coin = heavy(1.2);
-    let Err(CoinError::AxialMoment { found, most }) = coin.with_moments(Some(0.09), None) else {
+    let Err(CoinError::AxialMoment { found, most }) = coin.with_moments(Some(0.19), None) else {
         panic!("more than a thin ring has")
     };
-    assert!(close(found, 0.09) && close(most, 0.08));
-    for bad in [0.01, 0.06] {
+    assert!(close(found, 0.19) && close(most, 0.18));
+    for bad in [0.04, 0.11] {
         let refused = coin.with_moments(None, Some(bad));
         let Err(CoinError::TransverseMoment { found, least, most }) = refused else {
             panic!("{bad} is out of bounds")
         };
-        assert!(close(found, bad) && close(least, 0.02) && close(most, 0.0488));
+        assert!(close(found, bad) && close(least, 0.045) && close(most, 0.1098));
     }
 }
 
@@ -73,16 +73,14 @@ fn a_coin_without_axial_moment_is_refused() {
 #[test]
 fn the_height_is_the_ratio_times_the_radius() {
     let coin = heavy(1.2);
-    assert_eq!(
-        [coin.ratio(), coin.radius_m(), coin.height_m()],
-        [1.2, 2.0, 2.4]
-    );
+    assert_eq!([coin.ratio(), coin.radius_m()], [1.2, 3.0]);
+    assert!(close(coin.height_m(), 3.6));
 }
 
 #[test]
 fn rounding_leaves_a_cylinder_inside() {
     // H/2 is the limit of a flat coin, R that of a tall one
-    for (ratio, limit) in [(0.25, 0.25), (5.0, 2.0)] {
+    for (ratio, limit) in [(0.25, 0.375), (5.0, 3.0)] {
         let coin = heavy(ratio);
         assert!(coin.with_rim_radius(0.999 * limit).is_ok());
         for bad in [-1e-3, limit, 1.001 * limit, f64::NAN] {
@@ -99,24 +97,24 @@ fn rounding_leaves_a_cylinder_inside() {
 fn the_inner_ratio_is_that_of_the_cylinder_inside() {
     let coin = rounded(1.2, 0.3);
     assert_eq!(coin.rim_radius_m(), 0.3);
-    assert!(close(coin.inner_ratio(), (2.4 - 0.6) / (2.0 - 0.3)));
+    assert!(close(coin.inner_ratio(), (3.6 - 0.6) / (3.0 - 0.3)));
     assert_eq!(heavy(1.2).inner_ratio(), 1.2);
 }
 
 /// In the limit r = R = H/2 the coin is a sphere: 2/5 m R² about any diameter.
 #[test]
 fn a_coin_that_is_all_rim_is_a_sphere() {
-    let sphere = rounded(2.0, 2.0 * (1.0 - 1e-9));
+    let sphere = rounded(2.0, 3.0 * (1.0 - 1e-9));
     for gyration in [sphere.transverse_gyration_m2(), sphere.axial_gyration_m2()] {
         // off by the part of the cylinder that is left, some 1e-9
-        assert!((gyration / (0.4 * 4.0) - 1.0).abs() < 1e-8, "{gyration}");
+        assert!((gyration / (0.4 * 9.0) - 1.0).abs() < 1e-8, "{gyration}");
     }
 }
 
 /// The sums of thin slices, in metres: off by some n^(−3/2) with n slices.
 #[test]
 fn a_rounded_coin_has_the_moments_of_thin_slices() {
-    let (half, radius, rim) = (1.2, 2.0, 0.3_f64);
+    let (half, radius, rim) = (1.8, 3.0, 0.3_f64);
     let slices = 20_000;
     let [mut mass, mut axial, mut square] = [0.0; 3];
     for slice in 0..slices {
@@ -136,7 +134,7 @@ fn a_rounded_coin_has_the_moments_of_thin_slices() {
 
 #[test]
 fn own_moments_outlast_a_rounding_that_changes_nothing() {
-    let hollow = heavy(1.2).with_moments(Some(0.06), Some(0.04));
+    let hollow = heavy(1.2).with_moments(Some(0.12), Some(0.08));
     let hollow = hollow.expect("a hollow coin");
     assert_eq!(hollow.with_rim_radius(0.0), Ok(hollow));
 }
@@ -185,7 +183,7 @@ fn lowest_of_circles(axis: &Vector3<f64>, circles: [(f64, f64); 2]) -> Vector3<f
 fn no_point_of_a_cylinder_is_below_its_lowest() {
     for coin in [heavy(1.2), rounded(1.2, 0.3)] {
         let rim = coin.rim_radius_m();
-        let circles = [1.0, -1.0].map(|side| (2.0 - rim, side * (1.2 - rim)));
+        let circles = [1.0, -1.0].map(|side| (3.0 - rim, side * (1.8 - rim)));
         for axis in axes() {
             let expected = lowest_of_circles(&axis, circles) - Vector3::z() * rim;
             let found = coin.lowest_point_m(&axis);
@@ -201,7 +199,7 @@ fn no_point_of_a_cylinder_is_below_its_lowest() {
 fn no_point_of_a_coin_with_unlike_faces_is_below_its_lowest() {
     let loaded = heavy(1.2).with_centre_of_mass(0.2, None, None);
     // heads is 0.3 of H from the centre, tails 0.7 of H
-    let loaded = (loaded.expect("a loaded coin"), [(2.0, 0.72), (2.0, -1.68)]);
+    let loaded = (loaded.expect("a loaded coin"), [(3.0, 1.08), (3.0, -2.52)]);
     let conical = heavy(1.2).with_draft(-12.0).expect("a cone");
     let [heads, tails] = conical.rims();
     let circles = [
@@ -224,18 +222,18 @@ fn no_point_of_a_coin_with_unlike_faces_is_below_its_lowest() {
 fn a_level_coin_touches_in_the_middle_of_its_face_or_side() {
     let loaded = heavy(1.2).with_centre_of_mass(0.2, None, None);
     let loaded = loaded.expect("a loaded coin");
-    // the side's middle is 0.2 H = 0.48 m on the tails side of the centre
+    // the side's middle is 0.2 H = 0.72 m on the tails side of the centre
     let cases = [
-        (heavy(1.2), [-1.2, -1.2], 0.0),
-        (rounded(1.2, 0.3), [-1.2, -1.2], 0.0),
-        (loaded, [-1.68, -0.72], -0.48),
+        (heavy(1.2), [-1.8, -1.8], 0.0),
+        (rounded(1.2, 0.3), [-1.8, -1.8], 0.0),
+        (loaded, [-2.52, -1.08], -0.72),
     ];
     for (coin, [heads_up, heads_down], middle) in cases {
         for (axis, expected) in [
             (Vector3::z(), Vector3::z() * heads_up),
             (-Vector3::z(), Vector3::z() * heads_down),
-            (Vector3::x(), Vector3::new(middle, 0.0, -2.0)),
-            (-Vector3::y(), Vector3::new(0.0, -middle, -2.0)),
+            (Vector3::x(), Vector3::new(middle, 0.0, -3.0)),
+            (-Vector3::y(), Vector3::new(0.0, -middle, -3.0)),
         ] {
             let found = coin.lowest_point_m(&axis);
             assert!(
