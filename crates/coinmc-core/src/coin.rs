@@ -379,36 +379,4 @@ impl Coin {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_thin_ring_is_allowed_and_a_larger_moment_is_not() {
-        let coin = Coin::cylinder(0.1, 0.01).unwrap();
-        let ring = coin.mass_kg() * 1e-4;
-        assert!(coin.with_moments(Some(ring), Some(ring / 2.0)).is_ok());
-        assert!(matches!(
-            coin.with_moments(Some(ring * 1.001), None),
-            Err(CoinError::AxialMoment { .. })
-        ));
-    }
-
-    #[test]
-    fn a_transverse_moment_beyond_all_mass_at_the_ends_is_refused() {
-        let coin = Coin::cylinder(2.0, 1.0).unwrap().with_mass(1.0).unwrap();
-        // I_a = 1/2, H²/4 = 1: I_t lies in [1/4, 5/4]
-        assert!(coin.with_moments(None, Some(1.25)).is_ok());
-        for bad in [0.249, 1.251, f64::NAN, f64::INFINITY, -1.0] {
-            assert!(coin.with_moments(None, Some(bad)).is_err(), "{bad}");
-        }
-    }
-
-    #[test]
-    fn bad_sizes_are_refused() {
-        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(Coin::cylinder(bad, 1.0).is_err());
-            assert!(Coin::cylinder(1.0, bad).is_err());
-            assert!(Coin::cylinder(1.0, 1.0).unwrap().with_mass(bad).is_err());
-        }
-    }
-}
+mod tests;

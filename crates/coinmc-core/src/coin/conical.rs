@@ -248,15 +248,16 @@ mod tests {
     #[test]
     fn centre_and_moments_are_those_of_thin_slices() {
         for (ratio, draft_deg) in [(0.2, 4.0), (1.0, 12.0), (2.0, -20.0)] {
-            let coin = Coin::cylinder(ratio, 1.0).and_then(|coin| coin.with_draft(draft_deg));
+            let radius: f64 = 0.02;
+            let coin = Coin::cylinder(ratio, radius).and_then(|coin| coin.with_draft(draft_deg));
             let coin = coin.expect("a coin that rests on its edge");
             let slope = libm::tan(draft_deg.abs().to_radians());
             let [heads, tails] = coin.rims();
             let wide = if draft_deg > 0.0 { heads } else { tails };
             let found = [
-                wide.distance_m,
-                coin.transverse_gyration_m2,
-                coin.axial_gyration_m2,
+                wide.distance_m / radius,
+                coin.transverse_gyration_m2 / radius.powi(2),
+                coin.axial_gyration_m2 / radius.powi(2),
             ];
             for (found, expected) in found.iter().zip(sliced(ratio, slope)) {
                 assert!((found / expected - 1.0).abs() < 1e-7, "{found} {expected}");
@@ -282,5 +283,82 @@ mod tests {
         let [_, narrow] = coin.with_draft(most - 1e-9).expect("just below").rims();
         let slope = libm::tan(most.to_radians());
         assert!((slope - narrow.distance_m / narrow.radius_m).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_point_of_a_cone_is_no_face() {
+        assert!(!Frustum::rests_on_edge(2.0, 0.5));
+        assert!(Frustum::rests_on_edge(1.999, 0.5));
+    }
+
+    #[test]
+    fn a_draft_of_0_gives_a_cylinder() {
+        let cylinder = Coin::cylinder(1.0, 0.02).expect("a good coin");
+        let conical = cylinder.with_draft(10.0).expect("a cone");
+        assert_eq!([conical.draft_deg(), cylinder.draft_deg()], [10.0, 0.0]);
+        let back = conical.with_draft(0.0).expect("a cylinder");
+        assert!(conical.is_conical() && !back.is_conical());
+        assert!((back.axial_gyration_m2 / cylinder.axial_gyration_m2 - 1.0).abs() < 1e-15);
+        // of a coin that is none but a cylinder it changes nothing
+        let hollow = cylinder.with_moments(Some(1.8e-6), None).expect("hollow");
+        assert_eq!(hollow.with_draft(0.0), Ok(hollow));
+    }
+
+    #[test]
+    fn a_draft_of_45_degrees_is_too_much() {
+        let coin = Coin::cylinder(0.9, 0.02).expect("a good coin");
+        for side in [1.0, -1.0] {
+            assert!(coin.with_draft(side * 44.9).is_ok());
+            let beyond = coin.with_draft(side * 45.0);
+            assert!(matches!(beyond, Err(CoinError::Draft { .. })));
+        }
+    }
+
+    /// The thickest coin is nearly the cone to its point, at H = R/tan α; the thinnest would tip.
+    #[test]
+    fn a_coin_rests_on_its_edge_between_two_ratios() {
+        for draft_deg in [1.0_f64, -5.0, 20.0, 40.0] {
+            let [thin, thick] = Coin::ratios_with_draft(draft_deg);
+            let apex = 1.0 / libm::tan(draft_deg.abs().to_radians());
+            assert!((thick / apex - 1.0).abs() < 1e-14);
+            for (ratio, rests) in [
+                (thin * (1.0 - 1e-9), false),
+                (thin * (1.0 + 1e-9), true),
+                (0.5 * (thin + thick), true),
+                (thick * (1.0 - 1e-9), true),
+                (thick * (1.0 + 1e-9), false),
+            ] {
+                let coin = Coin::cylinder(ratio, 0.02).expect("a good coin");
+                assert_eq!(
+                    coin.with_draft(draft_deg).is_ok(),
+                    rests,
+                    "{draft_deg} {ratio}"
+                );
+            }
+        }
+        assert_eq!(Coin::ratios_with_draft(0.0), [0.0, f64::INFINITY]);
+    }
+
+    /// R = 20 mm and H = 16 mm, in mm below.
+    #[test]
+    fn rims_are_those_of_the_cylinder_inside_and_pictures_show_the_outer_ones() {
+        let coin = Coin::cylinder(0.8, 0.02).expect("a good coin");
+        let in_mm = |rims: [Rim; 2]| rims.map(|rim| [1e3 * rim.radius_m, 1e3 * rim.distance_m]);
+        let same = |found: [Rim; 2], expected: [[f64; 2]; 2]| {
+            let pairs = in_mm(found).into_iter().zip(expected);
+            pairs
+                .flat_map(|(found, expected)| found.into_iter().zip(expected))
+                .all(|(found, expected)| (found - expected).abs() < 1e-12)
+        };
+        let rounded = coin.with_rim_radius(3e-3).expect("rounded rims");
+        assert!(same(rounded.rims(), [[17.0, 5.0]; 2]));
+        assert!(same(rounded.outer_rims(), [[20.0, 8.0]; 2]));
+        let loaded = coin.with_centre_of_mass(0.125, None, None).expect("loaded");
+        assert!(same(loaded.outer_rims(), [[20.0, 6.0], [20.0, 10.0]]));
+        let conical = coin.with_draft(-10.0).expect("a cone");
+        let [heads, tails] = conical.outer_rims();
+        let narrow = 0.02 - 0.016 * libm::tan(10_f64.to_radians());
+        assert!((heads.radius_m - narrow).abs() < 1e-15 && tails.radius_m == 0.02);
+        assert!((heads.distance_m + tails.distance_m - 0.016).abs() < 1e-15);
     }
 }

@@ -193,3 +193,95 @@ fn matter() -> Vec<Field> {
         ),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::schema::Value;
+
+    /// A coin of 10 g with H/R = 1.2 and R = 10 mm, or what `others` say.
+    fn read(others: &[(&'static str, f64)]) -> Result<Coin, ReadError> {
+        let usual = [("ratio", 1.2), ("radius_m", 0.01), ("mass_kg", 0.01)];
+        let is_usual = |key: &str| others.iter().all(|(other, _)| *other != key);
+        let usual = usual.into_iter().filter(|(key, _)| is_usual(key));
+        let entries = usual.chain(others.iter().copied());
+        let entries = entries.map(|(key, value)| (key, Value::Number(value)));
+        Coin::read(&Values::new(entries.collect()))
+    }
+
+    #[test]
+    fn a_config_says_the_coin() {
+        let plain = Coin::cylinder(1.2, 0.01).expect("a good coin");
+        assert_eq!(read(&[]).ok(), Some(plain));
+        let heavy = plain.with_mass(0.02);
+        assert_eq!(read(&[("mass_kg", 0.02)]).ok(), heavy.ok());
+        let rounded = plain.with_rim_radius(1e-3);
+        assert_eq!(read(&[("rim_radius_m", 1e-3)]).ok(), rounded.ok());
+        assert_eq!(read(&[(DRAFT, 5.0)]).ok(), plain.with_draft(5.0).ok());
+        let loaded = plain.with_centre_of_mass(0.1, Some(6e-7), Some(5e-7));
+        let keys = [
+            (CENTRE, 0.1),
+            ("axial_moment_kg_m2", 6e-7),
+            ("transverse_moment_kg_m2", 5e-7),
+        ];
+        assert_eq!(read(&keys).ok(), loaded.ok());
+    }
+
+    /// m R² = 1e-6 kg m², and with I_a = 5e-7 the transverse moment is from 2.5e-7 to 6.1e-7.
+    #[test]
+    fn an_error_blames_the_key_of_the_quantity() {
+        let axial = "axial_moment_kg_m2";
+        let transverse = "transverse_moment_kg_m2";
+        let cases: [(&[(&'static str, f64)], &str); 11] = [
+            (&[("ratio", 0.0)], "ratio"),
+            (&[("radius_m", -1.0)], "radius_m"),
+            (&[("mass_kg", 0.0)], "mass_kg"),
+            (&[("rim_radius_m", 0.01)], "rim_radius_m"),
+            (&[(DRAFT, 44.0)], DRAFT),
+            (&[("rim_radius_m", 1e-3), (DRAFT, 5.0)], DRAFT),
+            (&[(CENTRE, 0.6)], CENTRE),
+            (&[(CENTRE, 0.1), (DRAFT, 5.0)], CENTRE),
+            (&[(CENTRE, 0.3)], CENTRE),
+            (&[(axial, 1.1e-6)], axial),
+            (&[(transverse, 7e-7)], transverse),
+        ];
+        for (entries, key) in cases {
+            let error = read(entries).expect_err("an impossible coin");
+            assert_eq!(error.path().collect::<Vec<_>>(), [key], "{entries:?}");
+        }
+    }
+
+    /// A uniform cylinder with H/R = 1.2 has I_t = 3.7e-7 kg m², less than half of 8e-7 and more than any body
+    /// without axial moment: m H²/4 = 3.6e-7.
+    #[test]
+    fn an_axial_moment_is_to_blame_that_rules_out_the_uniform_transverse_one() {
+        let axial = "axial_moment_kg_m2";
+        for alone in [8e-7, 1e-10] {
+            let error = read(&[(axial, alone)]).expect_err("no such coin");
+            assert_eq!(error.path().collect::<Vec<_>>(), [axial]);
+        }
+        let transverse = ("transverse_moment_kg_m2", 3.7e-7);
+        let error = read(&[(axial, 8e-7), transverse]).expect_err("no such coin");
+        assert_eq!(error.path().collect::<Vec<_>>(), [transverse.0]);
+    }
+
+    #[test]
+    fn a_config_may_have_each_key_that_is_read() {
+        let schema = Coin::schema();
+        let matter = ["mass_kg", "rim_radius_m", DRAFT, CENTRE];
+        let moments = ["axial_moment_kg_m2", "transverse_moment_kg_m2"];
+        let lengths = Coin::HEIGHTS
+            .iter()
+            .chain(&Coin::RADII)
+            .map(|(key, _)| *key);
+        let pairs = EXCLUSIVE.as_flattened().iter().copied();
+        for key in lengths.chain(pairs).chain(matter).chain(moments) {
+            assert!(schema.field(key).is_some(), "{key}");
+        }
+        let (mut names, fields) = (Vec::new(), schema.fields.len());
+        names.extend(schema.fields.iter().map(|field| field.name));
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), fields, "each key once");
+    }
+}

@@ -47,13 +47,15 @@ impl Coin {
         axial_kg_m2: Option<f64>,
         transverse_kg_m2: Option<f64>,
     ) -> Result<Self, CoinError> {
-        let mut coin = self;
-        if over_height != 0.0 || self.centre_over_height != 0.0 {
-            coin = self.moved_to(over_height, transverse_kg_m2.is_none())?;
+        let stays = over_height == 0.0 && self.centre_over_height == 0.0;
+        if stays && axial_kg_m2.is_none() && transverse_kg_m2.is_none() {
+            return Ok(self);
         }
-        if axial_kg_m2.is_none() && transverse_kg_m2.is_none() {
-            return Ok(coin);
-        }
+        let coin = if stays {
+            self
+        } else {
+            self.moved_to(over_height, transverse_kg_m2.is_none())?
+        };
         coin.with_moments(axial_kg_m2, transverse_kg_m2)
     }
 
@@ -161,5 +163,37 @@ mod tests {
         let loaded = coin().with_centre_of_mass(0.1, None, None).expect("loaded");
         assert_eq!(loaded.with_draft(5.0), Err(CoinError::LoadedShape));
         assert_eq!(loaded.with_rim_radius(1e-3), Err(CoinError::LoadedShape));
+    }
+
+    /// 10 g: I = 0.01 kg times the gyration.
+    #[test]
+    fn either_moment_may_be_given_alone() {
+        let [plain, axial, transverse] = [(None, None), (Some(6e-7), None), (None, Some(5e-7))]
+            .map(|(axial, transverse)| coin().with_centre_of_mass(0.1, axial, transverse))
+            .map(|found| found.expect("a loaded coin"));
+        assert!((axial.axial_gyration_m2() / 6e-5 - 1.0).abs() < 1e-14);
+        assert_eq!(
+            axial.transverse_gyration_m2(),
+            plain.transverse_gyration_m2()
+        );
+        assert!((transverse.transverse_gyration_m2() / 5e-5 - 1.0).abs() < 1e-14);
+        assert_eq!(transverse.axial_gyration_m2(), plain.axial_gyration_m2());
+        for loaded in [plain, axial, transverse] {
+            assert_eq!(loaded.centre_over_height(), 0.1);
+        }
+    }
+
+    /// A moment about the middle that is too small for the new centre leaves none about that.
+    #[test]
+    fn a_centre_that_the_moments_do_not_allow_is_refused() {
+        let coin =
+            Coin::cylinder(4.0, 0.01).and_then(|coin| coin.with_moments(Some(5e-7), Some(2.5e-7)));
+        let moved = coin
+            .expect("a thin rod")
+            .with_centre_of_mass(0.25, None, None);
+        assert!(
+            matches!(moved, Err(CoinError::TransverseMoment { .. })),
+            "{moved:?}"
+        );
     }
 }
