@@ -287,3 +287,108 @@ pub(super) fn hex(text: &str) -> Option<u64> {
     let value = u64::from_str_radix(text, 16).ok()?;
     (format!("{value:016x}") == text).then_some(value)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn photos_have_plain_names() {
+        let longest = "a".repeat(100);
+        for name in ["1.jpg", "a-b_c.png", "-", longest.as_str()] {
+            assert_eq!(
+                name.parse::<ImageName>().map(|it| it.0),
+                Ok(name.to_owned())
+            );
+        }
+        let too_long = "a".repeat(101);
+        for name in [
+            "",
+            ".jpg",
+            "..",
+            "a/b",
+            "a b",
+            "ä.jpg",
+            "a\nb",
+            too_long.as_str(),
+        ] {
+            assert_eq!(name.parse::<ImageName>(), Err(ImageNameError), "{name:?}");
+        }
+    }
+
+    #[test]
+    fn reasons_are_read_as_they_are_written() {
+        for reason in [
+            VoidReason::Unread,
+            VoidReason::Fault(0),
+            VoidReason::Fault(107),
+            VoidReason::Lost,
+            VoidReason::Superseded,
+            VoidReason::Mismatch,
+            VoidReason::Foreign,
+            VoidReason::OffTarget,
+        ] {
+            assert_eq!(reason.to_string().parse(), Ok(reason));
+        }
+        for text in [
+            "",
+            "fault",
+            "fault-",
+            "fault-07",
+            "fault--1",
+            "fault-65536",
+            "Lost",
+        ] {
+            assert_eq!(text.parse::<VoidReason>(), Err(()), "{text}");
+        }
+    }
+
+    /// Entries of throws have their number, and only these.
+    #[test]
+    fn only_throws_have_a_number() {
+        for (text, id) in [
+            ("A 7", None),
+            ("S 0000000000000001 1.2.3 4 0.1.0 5", None),
+            ("I 7 2500 100 5", Some(7)),
+            ("R 8 heads 2500 100 3 a.jpg 5", Some(8)),
+            ("D 9", Some(9)),
+            ("V 10 lost", Some(10)),
+        ] {
+            let entry = Entry::read(text).unwrap_or_else(|| panic!("{text}"));
+            assert_eq!((entry.id(), entry.to_string().as_str()), (id, text));
+        }
+    }
+
+    /// A number is written in one way, so that an entry is one text.
+    #[test]
+    fn numbers_are_canonical() {
+        assert_eq!(
+            [number("0"), number("10"), number("4294967295")],
+            [Some(0), Some(10), Some(u32::MAX)]
+        );
+        for text in [
+            "",
+            "00",
+            "01",
+            "+1",
+            "-1",
+            "1.0",
+            " 1",
+            "a",
+            "0a",
+            "4294967296",
+        ] {
+            assert_eq!(number::<u32>(text), None, "{text}");
+        }
+        assert_eq!(number::<f64>("1e3"), None);
+        assert_eq!(hex("00000000000000ff"), Some(255));
+        for text in [
+            "ff",
+            "00000000000000FF",
+            "+0000000000000ff",
+            "000000000000000ff",
+        ] {
+            assert_eq!(hex(text), None, "{text}");
+        }
+    }
+}

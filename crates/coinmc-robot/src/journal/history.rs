@@ -228,3 +228,97 @@ impl History {
         self.throws.last_mut().expect("`check` found an open throw")
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Face;
+    use crate::journal::{ImageName, Measured};
+
+    fn announced(id: u32) -> Entry {
+        Entry::Announced {
+            id,
+            setting: Setting::new(2500, 100).expect("a setting"),
+            at_ms: 5,
+        }
+    }
+
+    fn read(id: u32) -> Entry {
+        let image: ImageName = "a.jpg".parse().expect("a name");
+        let reading = Reading {
+            face: Face::Heads,
+            measured: Measured {
+                spin_mrev_s: 2500,
+                angle_cdeg: 100,
+            },
+            boot: 1,
+            image,
+            digest: None,
+        };
+        Entry::Read {
+            id,
+            reading,
+            at_ms: 6,
+        }
+    }
+
+    fn void(id: u32) -> Entry {
+        Entry::Void {
+            id,
+            reason: VoidReason::Lost,
+        }
+    }
+
+    fn after(entries: &[Entry]) -> History {
+        let mut history = History::default();
+        for entry in entries {
+            history.add(entry).expect("an entry that can follow");
+        }
+        history
+    }
+
+    /// A result is read once and stays: it is neither read again nor made void. It is final once the robot is ready.
+    #[test]
+    fn a_reading_stays() {
+        let history = after(&[announced(1), read(1)]);
+        for again in [read(1), void(1)] {
+            assert_eq!(history.check(&again), Err(OrderError::AlreadyRead(1)));
+        }
+        assert_eq!(history.check(&Entry::Done { id: 1 }), Ok(()));
+        let history = after(&[announced(1)]);
+        assert_eq!(
+            history.check(&Entry::Done { id: 1 }),
+            Err(OrderError::Unread(1))
+        );
+        assert_eq!(
+            [history.check(&read(1)), history.check(&void(1))],
+            [Ok(()); 2]
+        );
+        for other in [read(2), void(2), Entry::Done { id: 2 }] {
+            assert_eq!(history.check(&other), Err(OrderError::NotOpen(2)));
+        }
+        assert_eq!(history.check(&announced(2)), Err(OrderError::StillOpen(1)));
+        assert_eq!(
+            history.check(&Entry::Adopted { counter: 9 }),
+            Err(OrderError::StillOpen(1))
+        );
+    }
+
+    /// Void throws count from the last one with a result on; one that is open does not count.
+    #[test]
+    fn voids_in_a_row_are_counted_from_the_end() {
+        let mut entries = vec![];
+        let count = |entries: &[Entry]| after(entries).consecutive_voids();
+        assert_eq!(count(&entries), 0);
+        for id in 1..=2 {
+            entries.extend([announced(id), void(id)]);
+            assert_eq!(count(&entries), id as usize);
+        }
+        entries.push(announced(3));
+        assert_eq!(count(&entries), 2);
+        entries.extend([read(3), Entry::Done { id: 3 }]);
+        assert_eq!(count(&entries), 0);
+        entries.extend([announced(4), void(4)]);
+        assert_eq!(count(&entries), 1);
+    }
+}

@@ -51,3 +51,20 @@ pub(super) fn program(text: &str) -> Option<String> {
     let fits = (1..=LONGEST).contains(&text.len()) && text.chars().all(plain);
     fits.then(|| text.to_owned())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn versions_of_programs_are_single_words() {
+        let longest = "1".repeat(LONGEST);
+        for text in ["0.1.0", "1.0.0-rc.1+build", longest.as_str()] {
+            assert_eq!(program(text), Some(text.to_owned()));
+        }
+        let too_long = "1".repeat(LONGEST + 1);
+        for text in ["", "1 0", "1/0", "1\n", "é", too_long.as_str()] {
+            assert_eq!(program(text), None, "{text:?}");
+        }
+    }
+}

@@ -199,3 +199,39 @@ impl<'a> Lines<'a> {
         Some(if end < MAX_LINE { &rest[..end] } else { &[] })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file that begins like a journal was torn in its first line; any other is none.
+    #[test]
+    fn a_file_without_a_first_line_is_empty_or_none_of_ours() {
+        let (line, _) = LineChecksum::header(&Header {
+            plan_hash: "abc".to_owned(),
+            throws: 3,
+            experiment: 1,
+        });
+        for length in 0..line.len() {
+            assert_eq!(
+                parse(&line.as_bytes()[..length]),
+                Err(Damage::Empty),
+                "{length}"
+            );
+        }
+        assert!(parse(line.as_bytes()).is_ok());
+        for other in ["PNG", "coinmc-run", "x", "coinmc-robot-journey"] {
+            assert_eq!(parse(other.as_bytes()), Err(Damage::NotAJournal), "{other}");
+        }
+    }
+
+    /// The longest line has 256 bytes, its end included; what is longer is none.
+    #[test]
+    fn lines_end_at_their_greatest_length() {
+        let line = |length: usize| [vec![b'a'; length], vec![b'\n']].concat();
+        let first = |bytes: &[u8]| Lines { bytes, place: 0 }.next_line().map(<[u8]>::len);
+        assert_eq!(first(&line(MAX_LINE - 1)), Some(MAX_LINE - 1));
+        assert_eq!(first(&line(MAX_LINE)), Some(0));
+        assert_eq!(first(b"no end"), None);
+    }
+}
