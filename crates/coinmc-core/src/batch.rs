@@ -98,7 +98,7 @@ pub trait TossBatch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::launches;
+    use crate::testing::{self, launches};
 
     /// A toss in flight: its number, its launch, and the steps that it still takes.
     type Flying = (u64, Launch, u32);
@@ -171,16 +171,9 @@ mod tests {
 
     /// What is passed on to a sink that breaks at this call.
     fn passed_on(room: usize, launches: &[Launch], breaks_at: usize) -> Vec<Vec<(u64, Launch)>> {
-        let mut calls = Vec::new();
-        Slots::new(room).toss_all_in_batch(once(launches), |ended| {
-            calls.push(ended.to_vec());
-            if calls.len() == breaks_at {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
-        calls
+        testing::passed_on(breaks_at, |sink| {
+            Slots::new(room).toss_all_in_batch(once(launches), sink);
+        })
     }
 
     #[test]

@@ -198,7 +198,9 @@ pub fn run_tosses<E: Engine>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{Fall, Notes, distribution, launches, outcomes_alone, scene, stream};
+    use crate::testing::{
+        self, Fall, Notes, distribution, launches, outcomes_alone, scene, stream,
+    };
     use crate::{Coin, Surface, TableTilt};
 
     /// A coin of R = 2 m and H = 1 m at rest on the plane z = 0, its axis (2, 1, 2)/3.
@@ -293,16 +295,9 @@ mod tests {
     /// Passes these launches to the engine at once; the sink breaks at this call. What it was given.
     fn passed_on(launches: &[Launch], breaks_at: usize) -> Vec<Vec<(u64, Outcome)>> {
         let mut own = launches.iter().copied();
-        let mut calls = Vec::new();
-        Fall.toss_many(&mut (), LaunchSource::new(&mut own), &mut |outcomes| {
-            calls.push(outcomes.to_vec());
-            if calls.len() == breaks_at {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
-        calls
+        testing::passed_on(breaks_at, |sink| {
+            Fall.toss_many(&mut (), LaunchSource::new(&mut own), sink);
+        })
     }
 
     #[test]

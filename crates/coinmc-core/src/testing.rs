@@ -5,6 +5,7 @@ use crate::{
     Outcome, Preset, Scene, State, Stream, Surface, sample_between,
 };
 use nalgebra::Vector3;
+use std::ops::ControlFlow;
 
 /// A coin that falls from rest, does not turn, and lies as it lands. Under g = 10 m/s² it is at
 /// h - 5t² after t.
@@ -69,6 +70,23 @@ pub(crate) fn launches(tosses: u64) -> Vec<Launch> {
 pub(crate) fn outcomes_alone(launches: &[Launch]) -> Vec<(u64, Outcome)> {
     let toss = |launch| Fall.toss(&mut (), launch, &mut ());
     (0..).zip(launches.iter().map(toss)).collect()
+}
+
+/// What is passed on to a sink that breaks at this call.
+pub(crate) fn passed_on<T: Clone>(
+    breaks_at: usize,
+    toss: impl FnOnce(&mut dyn FnMut(&[T]) -> ControlFlow<()>),
+) -> Vec<Vec<T>> {
+    let mut calls = Vec::new();
+    toss(&mut |ended| {
+        calls.push(ended.to_vec());
+        if calls.len() == breaks_at {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    calls
 }
 
 /// Notes all events, and the coin at every tenth of a second.

@@ -113,7 +113,7 @@ impl Observer for PathRecorder<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use coinmc_flat::Law;
+    use crate::fit::tests::model;
 
     /// Height of the lowest of the four corners of a coin in the plane.
     fn lowest(coin: &Coin, [_, z, theta]: [f64; 3]) -> f64 {
@@ -127,11 +127,7 @@ mod tests {
     /// The face is certain while the coin is still in the air.
     #[test]
     fn the_last_flight_is_followed_until_a_corner_is_down() {
-        let model = Model {
-            law: Law::Moreau,
-            coin: Coin::cylinder(1.0, 0.01).unwrap(),
-            gravity_m_s2: 9.81,
-        };
+        let model = model();
         let at: Vec<f64> = (0..6000).map(|frame| f64::from(frame) * 1e-4).collect();
         for theta in [0.0, 0.2, -0.3, 1.4] {
             let start = [0.0, 0.1, 0.1, 0.0, theta, 0.0];
@@ -148,11 +144,7 @@ mod tests {
     /// A coin in free fall that is followed by nothing but the last flight's closed form.
     #[test]
     fn a_flight_goes_on_as_bodies_fall() {
-        let model = Model {
-            law: Law::Moreau,
-            coin: Coin::cylinder(1.0, 0.01).unwrap(),
-            gravity_m_s2: 9.81,
-        };
+        let model = model();
         let start = Launch {
             height_m: 3.0,
             velocity_m_s: Vector3::new(0.5, 0.0, 1.5),

@@ -48,6 +48,24 @@ fn launches() -> Vec<LaunchDistribution> {
     ]
 }
 
+/// The place of a face among probabilities.
+fn place_of(face: Face) -> usize {
+    Face::ALL.iter().position(|known| *known == face).unwrap()
+}
+
+/// A coin of this tilt that is dropped and turns in the plane of the tilt.
+fn dropped(tilt: Marginal, height_m: f64, rate_rad_s: Marginal) -> LaunchDistribution {
+    LaunchDistribution {
+        orientation: Orientation::Tilt(tilt),
+        height_m: Marginal::Constant(height_m),
+        velocity_m_s: [Marginal::Constant(0.0); 3],
+        spin: Spin::About {
+            axis: Vector3::y_axis(),
+            rate_rad_s,
+        },
+    }
+}
+
 /// The face of the axis at the passage, with every quantity given.
 fn at_passage(scene: &Scene, launch: &Launch) -> Face {
     let given = LaunchDistribution {
@@ -171,8 +189,7 @@ fn the_closed_form_is_the_mean_over_the_quantity() {
                     };
                     let launch = launches.launch(&scene.coin, &mut at);
                     let face = at_passage(&scene, &launch);
-                    mean[Face::ALL.iter().position(|known| *known == face).unwrap()] +=
-                        1.0 / 4000.0;
+                    mean[place_of(face)] += 1.0 / 4000.0;
                 }
                 for (closed, mean) in closed.iter().zip(mean) {
                     assert!(
@@ -246,7 +263,7 @@ fn the_azimuth_is_the_mean_over_the_circle_about_the_spin() {
                 let (sin, cos) = libm::sincos(TAU * (f64::from(i) + 0.5) / f64::from(count));
                 let axis = about * along + (across * cos + other * sin) * radius;
                 let face = at_passage(&scene, &launch(axis));
-                mean[Face::ALL.iter().position(|known| *known == face).unwrap()] += 1.0;
+                mean[place_of(face)] += 1.0;
             }
             let drawn = launch(Vector3::new(radius, 0.0, along));
             let closed = conditional.over_azimuth(&drawn);
@@ -300,18 +317,14 @@ fn shares_are_those_of_the_circle() {
 #[test]
 fn a_quantity_of_too_many_turns_is_drawn() {
     let scene = scene(1.0, 0.0, true);
-    let launches = LaunchDistribution {
-        orientation: Orientation::Tilt(Marginal::Constant(0.4)),
-        height_m: Marginal::Constant(0.5),
-        velocity_m_s: [Marginal::Constant(0.0); 3],
-        spin: Spin::About {
-            axis: Vector3::y_axis(),
-            rate_rad_s: Marginal::Uniform {
-                from: -1e5,
-                to: 1e5,
-            },
+    let launches = dropped(
+        Marginal::Constant(0.4),
+        0.5,
+        Marginal::Uniform {
+            from: -1e5,
+            to: 1e5,
         },
-    };
+    );
     let conditional = Conditional::new(&scene, &launches, Variable::Rate);
     assert!(!conditional.is_integrable());
     let mut seen = [0; 3];
@@ -325,7 +338,7 @@ fn a_quantity_of_too_many_turns_is_drawn() {
             p,
         };
         let face = at_passage(&scene, &launches.launch(&scene.coin, &mut at));
-        let place = Face::ALL.iter().position(|known| *known == face).unwrap();
+        let place = place_of(face);
         let mut expected = [0.0; 3];
         expected[place] = 1.0;
         assert!(
@@ -342,15 +355,11 @@ fn a_quantity_of_too_many_turns_is_drawn() {
 #[test]
 fn a_wide_normal_quantity_is_the_mean_over_its_quantiles() {
     let scene = scene(1.0, 0.0, true);
-    let wide = LaunchDistribution {
-        orientation: Orientation::Tilt(Marginal::Constant(0.4)),
-        height_m: Marginal::Constant(0.2),
-        velocity_m_s: [Marginal::Constant(0.0); 3],
-        spin: Spin::About {
-            axis: Vector3::y_axis(),
-            rate_rad_s: Marginal::Normal { mean: 9.0, sd: 6.0 },
-        },
-    };
+    let wide = dropped(
+        Marginal::Constant(0.4),
+        0.2,
+        Marginal::Normal { mean: 9.0, sd: 6.0 },
+    );
     let conditional = Conditional::new(&scene, &wide, Variable::Rate);
     let mut stream = Stream::new(3, Domain::Launch, 0).toss(0);
     let phases = Phases::new(
@@ -372,7 +381,7 @@ fn a_wide_normal_quantity_is_the_mean_over_its_quantiles() {
             p: (f64::from(i) + 0.5) / f64::from(count),
         };
         let face = at_passage(&scene, &wide.launch(&scene.coin, &mut at));
-        mean[Face::ALL.iter().position(|known| *known == face).unwrap()] += 1.0 / f64::from(count);
+        mean[place_of(face)] += 1.0 / f64::from(count);
     }
     assert!(
         closed.iter().zip(mean).all(|(a, b)| (a - b).abs() < 0.01),
@@ -389,15 +398,11 @@ fn a_coin_without_time_to_turn_keeps_its_face() {
         (1.5, [0.0, 0.0, 1.0]),
         (3.0, [0.0, 1.0, 0.0]),
     ] {
-        let launches = LaunchDistribution {
-            orientation: Orientation::Tilt(Marginal::Constant(tilt)),
-            height_m: Marginal::Constant(scene.coin.rim_distance_m()),
-            velocity_m_s: [Marginal::Constant(0.0); 3],
-            spin: Spin::About {
-                axis: Vector3::y_axis(),
-                rate_rad_s: Marginal::Uniform { from: 1.0, to: 2.0 },
-            },
-        };
+        let launches = dropped(
+            Marginal::Constant(tilt),
+            scene.coin.rim_distance_m(),
+            Marginal::Uniform { from: 1.0, to: 2.0 },
+        );
         let conditional = Conditional::new(&scene, &launches, Variable::Rate);
         let mut stream = Stream::new(3, Domain::Launch, 0).toss(0);
         assert_eq!(conditional.faces(&mut stream, 0.5).p, expected, "{tilt}");
@@ -409,15 +414,11 @@ fn a_coin_without_time_to_turn_keeps_its_face() {
 fn a_phase_without_digits_is_drawn() {
     let scene = scene(1.0, 0.0, true);
     for (rate, over) in [(1e8, true), (1e11, false), (-1e11, false)] {
-        let launches = LaunchDistribution {
-            orientation: Orientation::Tilt(Marginal::Uniform { from: 0.0, to: 1.0 }),
-            height_m: Marginal::Constant(1.0),
-            velocity_m_s: [Marginal::Constant(0.0); 3],
-            spin: Spin::About {
-                axis: Vector3::y_axis(),
-                rate_rad_s: Marginal::Constant(rate),
-            },
-        };
+        let launches = dropped(
+            Marginal::Uniform { from: 0.0, to: 1.0 },
+            1.0,
+            Marginal::Constant(rate),
+        );
         let conditional = Conditional::new(&scene, &launches, Variable::Tilt);
         assert_eq!(conditional.is_integrable(), over, "{rate}");
     }

@@ -296,6 +296,16 @@ mod tests {
     use coinmc_testkit::Dice;
     use nalgebra::Vector3;
 
+    /// Friction with either length or without it.
+    fn any_friction(dice: &mut Dice) -> Friction {
+        let mut length = || dice.pick(&[0.0, 1.0]) * dice.scale(0.003, 0.2);
+        Friction {
+            contour: length(),
+            pivoting: length(),
+            mu: dice.between(0.05, 0.6),
+        }
+    }
+
     /// The lowest point rebounds with e of its speed, and every friction opposes what is left of the rate that it acts
     /// against, or stops it: in the motion of a coin in vectors after the impulse.
     #[test]
@@ -304,12 +314,7 @@ mod tests {
         for trial in 0..2000 {
             let mut dice = Dice::new(324, trial);
             let body = Rigid::generic_body(dice.pick(&[0.0, 0.15]));
-            let mut length = || dice.pick(&[0.0, 1.0]) * dice.scale(0.003, 0.2);
-            let friction = Friction {
-                contour: length(),
-                pivoting: length(),
-                mu: dice.between(0.05, 0.6),
-            };
+            let friction = any_friction(&mut dice);
             let tilt = dice.between(0.2, 1.5);
             let mut coin = Rigid::new(&body, tilt, dice.vector(1.0), dice.vector(2.0));
             let e = dice.between(0.0, 0.6);
@@ -362,12 +367,7 @@ mod tests {
         let impulses = |trial: u64, unit: f64| {
             let mut dice = Dice::new(327, trial);
             let body = Rigid::generic_body(dice.pick(&[0.0, 0.15]));
-            let mut length = || dice.pick(&[0.0, 1.0]) * dice.scale(0.003, 0.2);
-            let friction = Friction {
-                contour: length(),
-                pivoting: length(),
-                mu: dice.between(0.05, 0.6),
-            };
+            let friction = any_friction(&mut dice);
             let tilt = dice.between(0.2, 1.5);
             let (velocity, omega) = (dice.vector(1.0), dice.vector(2.0));
             let mut coin = Rigid::new(&body, tilt, velocity * unit, omega * unit);

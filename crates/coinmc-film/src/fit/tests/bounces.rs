@@ -9,8 +9,8 @@ use crate::fit::{Fit, Loss, Options, fit, hop, intervals};
 use crate::parameter::{Parameter, Shared};
 use crate::synthetic::Synthetic;
 
-/// A film of two bounces.
-fn bounced(seed: u64, free: Parameter, loss: Loss, spoil: impl Fn(&mut FilmedDrop)) -> Fit {
+/// The restitution of a film of two bounces.
+fn bounced(seed: u64, loss: Loss, spoil: impl Fn(&mut FilmedDrop)) -> Fit {
     let mut drop = Synthetic {
         seed,
         duration_s: 0.4,
@@ -23,7 +23,7 @@ fn bounced(seed: u64, free: Parameter, loss: Loss, spoil: impl Fn(&mut FilmedDro
     spoil(&mut drop);
     let shared = Synthetic::default().shared;
     let options = Options {
-        free: vec![free],
+        free: vec![Parameter::Restitution],
         shared,
         loss,
         bounces: 1,
@@ -49,8 +49,8 @@ fn a_narrow_interval_is_that_of_linear_theory() {
             frame.seen = frame.seen.map(|seen| seen.map(|value| value + far));
         }
     };
-    let clean = bounced(5, Parameter::Restitution, Loss::Square, |_| {});
-    let robust = bounced(5, Parameter::Restitution, Loss::Huber, spoil);
+    let clean = bounced(5, Loss::Square, |_| {});
+    let robust = bounced(5, Loss::Huber, spoil);
     for (fit, tolerance) in [(clean, 0.01), (robust, 0.05)] {
         let estimate = &fit.parameters[0];
         let error = estimate.std_error.unwrap();

@@ -2,6 +2,18 @@
 
 use super::*;
 
+/// A step of contact of this length.
+fn tried<I>(model: &Model<I>, contact: &Contact, length: f64) -> Trial<f64, 6> {
+    let step = ScalarStep {
+        state: &contact.state,
+        now: &contact.now,
+        mode: contact.mode,
+        length,
+        tolerance: 1e-6,
+    };
+    step.run_ahead(&model.dynamics, 0.0).0
+}
+
 /// The time at which the other rim comes down to its track, of a coin that tilts upright in a step: where 2h cos θ is the
 /// difference of the tracks. At once where it is there already and approaches; never where it stays above.
 #[test]
@@ -28,14 +40,7 @@ fn the_other_rim_touches_where_the_lean_is_that_of_the_tracks() {
         let above = 2.0 * half * walk.toss.motion.cos;
         (walk.tracks.own.height, walk.tracks.other.height) = (0.01, 0.01 + above - start);
         [walk.tracks.own.rate, walk.tracks.other.rate] = rates;
-        let step = ScalarStep {
-            state: &contact.state,
-            now: &contact.now,
-            mode: contact.mode,
-            length,
-            tolerance: 1e-6,
-        };
-        let (trial, _) = step.run_ahead(&model.dynamics, 0.0);
+        let trial = tried(&model, &contact, length);
         let found = walk.touch_of_other(&contact, &trial, length);
         let Some(within) = expected else {
             assert_eq!(found, None);
@@ -76,14 +81,7 @@ fn a_rim_that_first_rises_from_its_track_touches_it_later() {
         let above = 2.0 * half * walk.toss.motion.cos;
         walk.tracks.other.height = above;
         [walk.tracks.own.rate, walk.tracks.other.rate] = rates;
-        let step = ScalarStep {
-            state: &contact.state,
-            now: &contact.now,
-            mode: contact.mode,
-            length,
-            tolerance: 1e-6,
-        };
-        let (mut trial, _) = step.run_ahead(&model.dynamics, 0.0);
+        let mut trial = tried(&model, &contact, length);
         // it has come down at the end of the step
         trial.state[TILT] = contact.state[TILT] + 0.02;
         let time = walk.touch_of_other(&contact, &trial, length);
