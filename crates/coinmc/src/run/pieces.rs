@@ -58,12 +58,11 @@ fn pieces(tosses: &Range<u64>, threads: NonZeroUsize) -> impl Iterator<Item = Ra
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::schedule::tests::plan_of_one;
 
     #[test]
     fn counts_do_not_depend_on_the_threads() {
-        let config = "coin.ratio = 1\nsurface = { restitution = 0.5, friction = 0.3 }\n\
-                      launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 1000";
-        let plan = crate::config::parse("test", config, &[]).unwrap();
+        let plan = plan_of_one("tosses = 1000");
         let (point, tosses) = (0, 5..1000);
         let chunk = Chunk { point, tosses };
         let counts = [1, 2, 7].map(|threads| {

@@ -283,12 +283,11 @@ fn chunk_at(plan: &Plan, cut: &Cut, point: usize, start: u64) -> Option<Chunk> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::schedule::tests::plan_of_one;
 
     #[test]
     fn a_text_is_too_long_only_if_it_is_longer_than_the_longest() {
-        let config = "coin.ratio = 1\nsurface = { restitution = 0.5, friction = 0.3 }\n\
-                      launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 1000";
-        let plan = crate::config::parse("test", config, &[]).unwrap();
+        let plan = plan_of_one("tosses = 1000");
         let tallies = Tallies::of(Path::new(""), plan.hash());
         for (bytes, damage) in [
             (MAX_BYTES, Damage::Checksum),

@@ -253,21 +253,13 @@ mod tests {
     use super::*;
     use crate::run::Part;
     use crate::run::finished::Finished;
-    use std::sync::Arc;
-
-    fn plan(stop: &str) -> Arc<Plan> {
-        let config = format!(
-            "coin.ratio = 1\nsurface = {{ restitution = 0.5, friction = 0.3 }}\n\
-             launch.preset = 'robot'\nengine.flat = {{}}\n[stop]\n{stop}"
-        );
-        Arc::new(crate::config::parse("test", &config, &[]).unwrap())
-    }
+    use crate::run::schedule::tests::plan_of_one;
 
     /// The time of a point is that of all stretches of all its chunks.
     #[test]
     fn computing_time_is_measured_where_it_is_limited() {
         for (limit, is_limited) in [("", false), ("max_core_seconds = 1e6", true)] {
-            let plan = plan(&format!("half_width = 0.1\nmax_tosses = 1000\n{limit}"));
+            let plan = plan_of_one(&format!("half_width = 0.1\nmax_tosses = 1000\n{limit}"));
             let schedule = Schedule::new(&plan, Part::WHOLE, Finished::default());
             let times = Mutex::new(Vec::new());
             let store = |batch: &[Work]| {
@@ -294,7 +286,7 @@ mod tests {
     /// What is counted of a chunk is reported when the worker is to stop, and nothing if nothing is.
     #[test]
     fn a_worker_that_is_stopped_reports_what_it_has() {
-        let plan = plan("tosses = 1000");
+        let plan = plan_of_one("tosses = 1000");
         let schedule = Schedule::new(&plan, Part::WHOLE, Finished::default());
         let shared = Shared {
             plan: &plan,

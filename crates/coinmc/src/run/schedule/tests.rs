@@ -8,8 +8,17 @@ use std::ops::Range;
 
 /// Two points.
 pub(in crate::run) fn plan(stop: &str) -> Arc<Plan> {
+    plan_of("[1.0, 2.0]", stop)
+}
+
+/// One point.
+pub(in crate::run) fn plan_of_one(stop: &str) -> Arc<Plan> {
+    plan_of("1.0", stop)
+}
+
+fn plan_of(ratio: &str, stop: &str) -> Arc<Plan> {
     let config = format!(
-        "coin.ratio = [1.0, 2.0]\nsurface = {{ restitution = 0.5, friction = 0.3 }}\n\
+        "coin.ratio = {ratio}\nsurface = {{ restitution = 0.5, friction = 0.3 }}\n\
          launch.preset = 'robot'\nengine.flat = {{}}\n[stop]\n{stop}"
     );
     Arc::new(crate::config::parse("test", &config, &[]).unwrap())
