@@ -300,5 +300,65 @@ mod tests {
             "half_width = 0.005\ntotal_tosses = 10_000"
         ));
         assert!(!goes_on("half_width = 0.01", "tosses = 1_000_000"));
+        // the interval of one face, or of all three
+        assert!(goes_on(
+            "half_width = 0.01\nface = 'side'",
+            "half_width = 0.01"
+        ));
+        assert!(!goes_on(
+            "half_width = 0.01\nface = 'side'",
+            "half_width = 0.01\nface = 'heads'"
+        ));
+        assert!(goes_on("events = 5", "events = 5"));
+        assert!(goes_on("events = 5", "events = 6"));
+        assert!(!goes_on("events = 5", "events = 4"));
+        assert!(!goes_on("events = 5", "half_width = 0.01"));
+        let limited = "half_width = 0.01\ntotal_tosses = 10_000";
+        assert!(goes_on(limited, limited));
+        assert!(goes_on(limited, "half_width = 0.01\ntotal_tosses = 20_000"));
+        assert!(!goes_on(limited, "half_width = 0.01\ntotal_tosses = 9_000"));
+    }
+
+    /// Each of these alone changes tosses that are made, or what is said of them.
+    #[test]
+    fn whatever_all_points_share_must_stay() {
+        let old = scene("[1, 2]", "0.5", "stop.tosses = 100");
+        for (other, change) in [
+            ("seed = 3", "seed 1 -> 3"),
+            ("paired = true", "paired false -> true"),
+            (
+                "sampling.method = 'random'",
+                "sampling.method \"auto\" -> \"random\"",
+            ),
+            (
+                "estimate.confidence = 0.9",
+                "estimate.confidence 0.95 -> 0.9",
+            ),
+            (
+                "estimate.interval = 'clopper-pearson'",
+                "estimate.interval \"wilson\" -> \"clopper-pearson\"",
+            ),
+        ] {
+            assert_eq!(of(&old, &format!("{other}\n{old}")), Err(change.to_owned()));
+        }
+    }
+
+    #[test]
+    fn points_move_where_an_axis_grows_before_its_end() {
+        let scene = |ratios| {
+            let rest = "paired = true\nstop.tosses = 100";
+            format!("{rest}\n{}", scene(ratios, "0.5", ""))
+        };
+        let moves = |new| {
+            let found = Extension::of(&plan(&scene("[1, 2]")), &plan(&scene(new))).unwrap();
+            (found.moves(), found.place(0), found.place(1))
+        };
+        assert_eq!(moves("[1, 2, 3]"), (false, Some(0), Some(1)));
+        assert_eq!(moves("[1, 1.5, 2]"), (true, Some(0), Some(2)));
+        assert_eq!(moves("[3, 2, 1]"), (true, Some(2), Some(1)));
+        let one = plan(&scene("[1]"));
+        let obstacle = Extension::of(&plan(&scene("[1, 2]")), &one).unwrap_err();
+        let change = "coin.ratio [1.0, 2.0] -> 1.0";
+        assert_eq!(obstacle.to_string(), change);
     }
 }

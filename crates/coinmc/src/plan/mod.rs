@@ -155,3 +155,32 @@ impl Point {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn numbers_of_the_config_are_found_under_their_keys() {
+        let text = "seed = 7\ncoin.ratio = [1, 2]\nsurface = { restitution = 0.5, friction = 0.25 }\n\
+                    launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 2_000_000";
+        let plan = crate::config::parse("inline", text, &[]).unwrap();
+        for (key, number) in [
+            ("seed", 7.0),
+            ("stop.tosses", 2e6),
+            ("surface.friction", 0.25),
+            ("engine.flat.zeno", coinmc_flat::Settings::default().zeno),
+        ] {
+            assert_eq!(plan.number(key), Some(number), "{key}");
+        }
+        for none in [
+            "",
+            "seed.ratio",
+            "surface",
+            "surface.wool",
+            "surface.friction.static",
+            "coin.ratio",
+            "engine.flat.law",
+        ] {
+            assert_eq!(plan.number(none), None, "{none}");
+        }
+    }
+}

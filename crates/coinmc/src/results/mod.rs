@@ -240,3 +240,25 @@ impl Row {
             .fold(0.0, f64::max)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_core::IntervalMethod;
+
+    #[test]
+    fn methods_are_known_by_the_names_that_rows_have() {
+        for method in [IntervalMethod::Wilson, IntervalMethod::ClopperPearson] {
+            let name = method.name();
+            assert_eq!(Row::interval_named(name), Some(name));
+        }
+        for name in ["sequential-clopper-pearson", "student-t", "exact"] {
+            assert_eq!(Row::interval_named(name), Some(name));
+            assert_eq!(Row::sampling_named(name), None);
+        }
+        for name in ["random", "quasi-random", "closed-form"] {
+            assert_eq!(Row::sampling_named(name), Some(name));
+            assert_eq!(Row::interval_named(name), None);
+        }
+    }
+}

@@ -360,6 +360,7 @@ fn per_toss(row: &Row, count: u64) -> Cell<'static> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::StoppedBy;
 
     #[test]
     fn names_are_unique_and_units_follow_from_them() {
@@ -374,5 +375,65 @@ mod tests {
             let is_number = matches!(column.kind, Kind::Count | Kind::Number);
             assert_eq!(column.unit == "1", is_number, "{}", column.name);
         }
+    }
+
+    /// Readers know these columns by their place at the end, where new ones are added.
+    #[test]
+    fn newer_columns_follow_the_older_ones() {
+        let columns = columns([]);
+        let names: Vec<_> = columns.iter().map(|column| &*column.name).collect();
+        let (_, newer) = names.split_at(names.len() - 20);
+        assert_eq!(
+            newer,
+            [
+                "side_rested",
+                "side_rolled",
+                "side_spun",
+                "rolled_1_cm",
+                "rolled_3_cm",
+                "rolled_10_cm",
+                "rolled_30_cm",
+                "rolled_1_m",
+                "rolled_3_m",
+                "rolled_10_m",
+                "stopped_by",
+                "pilot_tosses",
+                "same",
+                "p_same",
+                "p_same_lo",
+                "p_same_hi",
+                "left",
+                "p_left",
+                "p_left_lo",
+                "p_left_hi"
+            ]
+        );
+    }
+
+    #[test]
+    fn a_parameter_is_found_by_its_name() {
+        let plan = crate::config::parse(
+            "inline",
+            "coin.ratio = 0.75\nengine.analytic.rule = 'arc'",
+            &[],
+        );
+        let plan = plan.unwrap();
+        let row = |parameters: &[(&str, f64)]| {
+            let parameters = parameters.iter().map(|&(name, value)| (name.into(), value));
+            Row {
+                parameters: parameters.collect(),
+                ..Row::new(&plan, 0, Tally::default(), StoppedBy::Tosses)
+            }
+        };
+        let columns = columns(["ratio", "friction"]);
+        let cells =
+            |row: &Row| [1, 2].map(|column: usize| format!("{:?}", columns[column].cell(row)));
+        let both = ["Number(0.75)", "Number(0.3)"];
+        assert_eq!(cells(&row(&[("ratio", 0.75), ("friction", 0.3)])), both);
+        assert_eq!(cells(&row(&[("friction", 0.3), ("ratio", 0.75)])), both);
+        assert_eq!(
+            cells(&row(&[("radius_m", 0.01), ("friction", 0.3)])),
+            ["Missing", both[1]]
+        );
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::support::{column, parse};
 use coinmc::config;
-use coinmc::plan::EngineChoice;
+use coinmc::plan::{EngineChoice, Explanation};
 use coinmc_core::Preset;
 use coinmc_volumetric as volumetric;
 use std::collections::HashSet;
@@ -322,6 +322,23 @@ fn omissions_of_the_toss_in_space_are_explained() {
         .map(|e| e.points)
         .collect();
     assert_eq!(points, [2, 2]);
+}
+
+/// Below the threshold nothing bounces: that is said where something could bounce, of the points that have one.
+#[test]
+fn points_with_a_threshold_are_explained_apart_where_the_coin_bounces() {
+    let groups = |sets: &[&str]| {
+        let threshold = "surface.restitution_threshold_m_s=[0, 0.1, 0.2]";
+        let plan = parse(IN_SPACE, &[&[threshold], sets].concat());
+        let of = |e: &Explanation| (e.points, e.computed.contains("below its threshold"));
+        plan.explain().iter().map(of).collect::<Vec<_>>()
+    };
+    assert_eq!(groups(&[]), [(1, false), (2, true)]);
+    assert_eq!(
+        groups(&["surface.landing=adhesive", "sampling.method=random"]),
+        [(3, false)]
+    );
+    assert_eq!(groups(&["surface.landing=adhesive"]), [(3, false)]);
 }
 
 #[test]

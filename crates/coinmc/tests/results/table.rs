@@ -273,6 +273,7 @@ fn parquet_has_the_config_and_is_reproducible() {
     assert_eq!(value("coinmc.plan_hash"), plan.hash());
     assert_eq!(value("coinmc.config"), plan.resolved_toml);
     assert_eq!(value("coinmc.axes"), "ratio");
+    assert_eq!(reader.metadata().num_row_groups(), 1);
     let first = std::fs::read(&path).unwrap();
     let results = run_whole(&plan, dir.path()).results;
     let mut bytes = Vec::new();

@@ -423,6 +423,9 @@ fn integration_is_explained() {
         "{}",
         low.0
     );
+    // a coin that is let go so low may touch before the height at which its face is known
+    let search = "the search for the first contact";
+    assert!(hand.1.contains(search) && !low.1.contains(search));
 }
 
 /// The method is part of what a plan is.
