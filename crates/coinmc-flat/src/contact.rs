@@ -352,4 +352,24 @@ mod tests {
         let end = sliding.phase.run(&mut motion, &mut adapter);
         assert_eq!((end, sliding.phase.steps), (SlideEnd::OutOfSteps, 2));
     }
+
+    /// Only a coin at rest right above its corner stays there; one that leans at rest falls on, and one that turns
+    /// passes its balance.
+    #[test]
+    fn only_a_coin_at_rest_on_its_corner_is_balanced() {
+        for mu in [0.0, 3.0] {
+            let scene = scene(1.0, 0.0, mu);
+            let engine = FlatEngine::new(&scene, &Settings::default(), Moreau).expect("valid");
+            let balanced = |delta, omega| {
+                let mut unobserved = ();
+                let mut adapter = engine.parameters.adapter(&mut unobserved);
+                let end = contact(mu).pivot(&mut turning(delta, omega), false, &mut adapter);
+                matches!(end, Some(ContactEnd::Balanced))
+            };
+            assert!(balanced(0.0, 0.0), "{mu}");
+            for (delta, omega) in [(0.3, 0.0), (-0.3, 0.0), (0.0, 0.1), (0.3, 0.1)] {
+                assert!(!balanced(delta, omega), "{mu}: {delta} {omega}");
+            }
+        }
+    }
 }

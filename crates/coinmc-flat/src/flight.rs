@@ -322,4 +322,22 @@ mod tests {
         let omega = (0.99_f64 / cos).sqrt();
         assert_eq!(departure(delta, omega, cos, 0.0, 0.5), 0.0);
     }
+
+    /// Above the height of a corner nothing touches, whichever way it moves; a corner at the surface that comes down
+    /// does; and then there is nothing to look for.
+    #[test]
+    fn what_is_high_or_touches_needs_no_next_step() {
+        let shape = Shape::new(&scene(1.0, 0.5, 0.3).coin);
+        let at = |z: f64, vz: f64| {
+            let segment = FlightSegment::new(&shape, 0.0, [-0.2, 0.1, z, vz]);
+            let found = segment.evaluate(0.0, false, &mut 1e-3);
+            (found.touches, found.high, found.next)
+        };
+        let corner = libm::cos(0.2);
+        assert_eq!(at(1.5, -1.0), (false, true, 0.0));
+        assert_eq!(at(1.5, 1.0), (false, true, 0.0));
+        assert_eq!(at(corner, -1.0), (true, false, 0.0));
+        let (touches, high, next) = at(0.5 * (1.0 + corner), -1.0);
+        assert!(!touches && !high && next > 0.0);
+    }
 }

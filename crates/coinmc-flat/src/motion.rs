@@ -246,4 +246,20 @@ pub(crate) mod tests {
             }
         }
     }
+
+    /// Without a surface: x + v t, z + v t - t²/2, and the clock goes on.
+    #[test]
+    fn a_flight_is_a_parabola_and_takes_its_time() {
+        let start = Motion {
+            time: 2.0,
+            ..on_corner(0, 0.1, 0.5, 0.25)
+        };
+        let mut motion = start;
+        motion.advance(0.25);
+        assert_eq!(motion.time, 2.25);
+        assert_eq!(motion.x, start.x + 0.25 * start.vx);
+        assert!((motion.z - (start.z + 0.25 * start.vz - 0.03125)).abs() < 1e-15);
+        assert_eq!(motion.vz, start.vz - 0.25);
+        assert_eq!(motion.delta, start.delta + 0.125);
+    }
 }

@@ -85,3 +85,30 @@ impl<L: Lane> Touching<L> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All velocities shrink by one factor, and the energy is then what it may be.
+    #[test]
+    fn a_coin_that_gained_energy_is_slowed_down_to_what_it_had() {
+        let k = 0.3;
+        let coin = Touching::new(0.4, 0.3, -0.2, 0.5);
+        let before = coin.cos + 0.25 * (coin.energy(k) - coin.cos);
+        let capped = coin.capped(k, before);
+        for (now, then) in [
+            (capped.vx, coin.vx),
+            (capped.vz, coin.vz),
+            (capped.omega, coin.omega),
+        ] {
+            assert!((now - 0.5 * then).abs() < 1e-15);
+        }
+        assert!((capped.energy(k) - before).abs() < 1e-15);
+        let lossless = coin.capped(k, coin.energy(k));
+        assert_eq!(
+            [lossless.vx, lossless.vz, lossless.omega],
+            [coin.vx, coin.vz, coin.omega]
+        );
+    }
+}

@@ -216,3 +216,35 @@ impl ImpactLaw for GaekSukhovImpact {
         Resolution::Separates
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_testkit::scene;
+
+    /// What each lever is said to be is what it is: its description begins with its formula.
+    #[test]
+    fn levers_are_what_their_descriptions_say() {
+        let scene = scene(1.5, 0.5, 0.0);
+        let shape = Shape::new(&scene.coin);
+        let (half_height, radius) = shape.base(0, false);
+        let delta = 0.2;
+        // the first quadrant begins flat on a face
+        let (sin, cos) = libm::sincos(delta + shape.first_span(0));
+        for lever in Lever::ALL {
+            let settings = GaekSukhov {
+                eta_n_s: 0.0,
+                lever,
+            };
+            let law = settings.impact(&scene).expect("valid");
+            let (formula, value) = match lever {
+                Lever::Height => ("H cos θ", 2.0 * half_height * cos),
+                Lever::Diameter => ("2R cos θ", 2.0 * radius * cos),
+                Lever::Corner => ("R cos θ − (H/2) sin θ", radius * cos - half_height * sin),
+            };
+            assert!(lever.doc().starts_with(formula));
+            let found = law.lever(&shape, 0, delta);
+            assert!((found.abs() - value.abs()).abs() < 1e-14, "{formula}");
+        }
+    }
+}

@@ -403,4 +403,93 @@ mod tests {
         assert_eq!(steps(0.99), 1);
         assert!(steps(1.01) > 1);
     }
+
+    /// Half a sine of the height N and the length t has the impulse 2 N t/pi: that is what a pulse gives which may not
+    /// push more strongly, with friction in proportion. One that would sink in gets what stops the corner.
+    #[test]
+    fn a_limited_force_limits_the_impulse() {
+        let scene = coinmc_testkit::scene(1.0, 0.5, 0.3);
+        let shape = Shape::new(&scene.coin);
+        let mut motion = crate::motion::tests::on_corner(0, 0.3, 0.2, 0.1);
+        motion.vz -= 0.7;
+        let mut breaks = coinmc_core::Breaks::default();
+        let mut impact = Impact {
+            motion: &mut motion,
+            shape: &shape,
+            restitution: 0.5,
+            friction: 0.3,
+            tolerance: 1e-6,
+            breaks: &mut breaks,
+            record: crate::impact_law::ImpactRecord::default(),
+        };
+        let (sin, cos) = sin_cos(0.3);
+        let matrix = ContactMatrix::new(sin, cos, shape.k);
+        let velocity = (0.1, -0.7);
+        let of = |e| Moreau.impulse(matrix, velocity.0, velocity.1, e, 0.3);
+        let (wanted, least) = (of(0.5), of(0.0));
+        let time = 0.02;
+        let mut with_peak = |peak| {
+            let law = HalfSineImpact {
+                time: Time::Given(time),
+                peak,
+            };
+            law.impulse_within_limits(matrix, velocity, &mut impact, time)
+        };
+        assert_eq!(with_peak(None).z, wanted.z);
+        let middle = 0.5 * (wanted.z + least.z);
+        let limited = with_peak(Some(PI * middle / (2.0 * time)));
+        assert!((limited.z - middle).abs() < 1e-14);
+        assert!((limited.x / limited.z - wanted.x / wanted.z).abs() < 1e-14);
+        assert_eq!(with_peak(Some(1e-3)).z, least.z);
+        assert_eq!(with_peak(Some(1e6)).z, wanted.z);
+        assert_eq!((breaks.sinkings, breaks.energy_gains), (1, 1));
+    }
+
+    /// The torque of the force at the corner, about the centre, at the angle that the coin has turned to.
+    #[test]
+    fn the_force_turns_the_coin_about_its_centre() {
+        let pulse = pulse();
+        for turned in [-0.2, 0.0, 0.3] {
+            let rates = pulse.rates(&[turned, 0.7, 0.25]);
+            let (sin, cos) = libm::sincos(0.4 + turned);
+            // in the middle of the pulse the force is pi/2 of its mean
+            let torque = FRAC_PI_2 / 0.5 * (sin * 1.2 - cos * 0.3);
+            assert_eq!([rates[0], rates[2]], [0.7, 1.0]);
+            assert!((rates[1] - torque / 0.3).abs() < 1e-13, "{turned}");
+        }
+    }
+
+    /// A corner that rises after the pulse separates, though the centre may still come down; one whose rebound
+    /// gravity has used up stays.
+    #[test]
+    fn the_corner_decides_whether_the_coin_separates() {
+        let scene = coinmc_testkit::scene(1.0, 0.5, 0.3);
+        let shape = Shape::new(&scene.coin);
+        let resolution = |time: f64, restitution: f64, sign: f64| {
+            let mut motion = crate::motion::tests::on_corner(0, sign * 0.3, sign * 0.5, 0.0);
+            motion.vz -= 0.5;
+            let mut breaks = coinmc_core::Breaks::default();
+            let mut impact = Impact {
+                motion: &mut motion,
+                shape: &shape,
+                restitution,
+                friction: 0.3,
+                tolerance: 1e-9,
+                breaks: &mut breaks,
+                record: crate::impact_law::ImpactRecord::default(),
+            };
+            let law = HalfSineImpact {
+                time: Time::Given(time),
+                peak: None,
+            };
+            let found = law.resolve(&mut impact);
+            (found, motion.vz)
+        };
+        for sign in [1.0, -1.0] {
+            let (found, centre) = resolution(1e-6, 0.2, sign);
+            assert_eq!(found, Resolution::Separates);
+            assert!(centre < 0.0);
+            assert_eq!(resolution(0.02, 0.0, sign).0, Resolution::StaysInContact);
+        }
+    }
 }

@@ -424,4 +424,21 @@ mod tests {
         assert!(found < 0.3 && 0.3 - found <= EVENT);
         assert!(search.trials < 50, "{}", search.trials);
     }
+
+    /// (1 - 2t)(t + 0.7)(t - 1.9), whose only root in [0, 1] is 1/2, and its like with a root at 0.3: Newton's step from
+    /// within 1/128 of a root errs by no more than the square of that times the curvature over twice the slope.
+    #[test]
+    fn a_cubic_that_falls_below_zero_has_its_root() {
+        for root in [0.5, 0.3, 0.01, 0.99] {
+            let value = |t: f64| (t - root) * (t + 0.7) * (t - 1.9);
+            let slope =
+                |t: f64| (t + 0.7) * (t - 1.9) + (t - root) * (t - 1.9) + (t - root) * (t + 0.7);
+            let cubic = Cubic::new([value(0.0), value(1.0)], [slope(0.0), slope(1.0)]);
+            assert!(value(0.0) > 0.0 && value(1.0) < 0.0);
+            let curvature = 2.0 * (3.0 * root + 0.7 - 1.9 - root).abs() + 6.0 / 128.0;
+            let within = curvature / (2.0 * slope(root).abs()) / (128.0 * 128.0);
+            let error = (cubic.root() - root).abs();
+            assert!(error < 1.5 * within, "{root}: {error} {within}");
+        }
+    }
 }

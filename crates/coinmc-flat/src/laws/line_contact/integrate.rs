@@ -65,7 +65,7 @@ impl ImpactState {
     }
 
     /// The corners that touch at the start begin to press.
-    fn touch_at_start(&mut self) {
+    pub(super) fn touch_at_start(&mut self) {
         for which in 0..CORNERS {
             let at = self.body.place(&self.y, which);
             if which == 0 || (at.depth >= 0.0 && at.rate > 0.0) {

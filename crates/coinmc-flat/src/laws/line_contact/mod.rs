@@ -330,4 +330,47 @@ mod tests {
             assert_eq!(breaks.unresolved, times);
         }
     }
+
+    /// A viscous damper that loses all but a thousandth of the speed does not exist: such impacts are left to the
+    /// impulse, untouched.
+    #[test]
+    fn an_impact_with_next_to_no_rebound_is_left_to_the_impulse() {
+        let (law, shape) = law();
+        for (restitution, resolved) in [(0.0, false), (9e-4, false), (2e-3, true)] {
+            let mut motion = touching(0, 0.3);
+            let before = motion.vz;
+            let mut breaks = Breaks::default();
+            let mut impact = impact(&mut motion, &shape, &mut breaks);
+            impact.restitution = restitution;
+            let found = law.resolve(&mut impact);
+            assert_eq!(found != Resolution::UseImpulse, resolved, "{restitution}");
+            assert_eq!(motion.vz != before, resolved);
+        }
+    }
+
+    /// Of a coin that lands flat both corners press at once, and of one that lands on a corner only that.
+    #[test]
+    fn corners_that_touch_begin_to_press() {
+        let (law, shape) = law();
+        let flat = shape.last_angle(0, 1.0);
+        for (delta, omega, pressing) in [
+            (flat, 0.0, 2),
+            (flat - 0.1, 0.0, 1),
+            // the second corner rises as the first one comes down
+            (flat, -1.5, 1),
+        ] {
+            let mut motion = on_corner(0, delta, omega, 0.0);
+            motion.vz -= 0.3;
+            let mut breaks = Breaks::default();
+            let mut state = law.at_touch(&impact(&mut motion, &shape, &mut breaks));
+            state.touch_at_start();
+            let corners = state.body.corners.iter();
+            let grips: Vec<_> = corners
+                .map(|corner| !matches!(corner.grip, Grip::Apart))
+                .collect();
+            assert!(grips[0], "{delta} {omega}");
+            let count = grips.iter().filter(|&&grip| grip).count();
+            assert_eq!(count, pressing, "{delta} {omega}");
+        }
+    }
 }
