@@ -61,8 +61,15 @@ impl Case {
     }
 
     /// The same with the first contact deciding.
+    ///
+    /// # Panics
+    /// Never: no case has a tilted table.
     pub fn adhesive(mut self) -> Self {
-        self.scene.surface = self.scene.surface.with_landing(Landing::Adhesive);
+        self.scene.surface = self
+            .scene
+            .surface
+            .with_landing(Landing::Adhesive)
+            .expect("a level surface");
         self
     }
 

@@ -412,7 +412,12 @@ mod tests {
         assert!(!applies(0.4, plane) && !applies(0.6, plane));
         for ratio in [0.1, 0.6] {
             assert!(!applies(ratio, plane.with_roughness(Some(rough))));
-            assert!(!applies(ratio, plane.with_landing(Landing::Adhesive)));
+            assert!(!applies(
+                ratio,
+                plane
+                    .with_landing(Landing::Adhesive)
+                    .expect("a level surface")
+            ));
         }
     }
 }

@@ -283,8 +283,14 @@ impl Surface {
     }
 
     /// The same surface with another way of landing.
-    pub fn with_landing(self, landing: Landing) -> Self {
-        Self { landing, ..self }
+    ///
+    /// # Errors
+    /// [`SurfaceError::TiltedAdhesive`] if coins are to stick to a tilted surface.
+    pub fn with_landing(self, landing: Landing) -> Result<Self, SurfaceError> {
+        if landing == Landing::Adhesive && self.tilt().is_some() {
+            return Err(SurfaceError::TiltedAdhesive);
+        }
+        Ok(Self { landing, ..self })
     }
 
     /// The same surface as a round table of this radius, above whose middle the centre of the coin is

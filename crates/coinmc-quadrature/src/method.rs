@@ -182,7 +182,14 @@ mod tests {
     fn scene() -> Scene {
         let coin = Coin::cylinder(1.0, 0.01).unwrap();
         let surface = Surface::new(0.0, 0.0).unwrap();
-        Scene::new(coin, surface.with_landing(Landing::Adhesive), 9.81).unwrap()
+        Scene::new(
+            coin,
+            surface
+                .with_landing(Landing::Adhesive)
+                .expect("a level surface"),
+            9.81,
+        )
+        .unwrap()
     }
 
     fn of(launches: &LaunchDistribution) -> Option<Method> {
@@ -200,7 +207,10 @@ mod tests {
             (Preset::Drop, Method::Zone, 0),
         ];
         let mut bounces = scene();
-        bounces.surface = bounces.surface.with_landing(Landing::Bouncing);
+        bounces.surface = bounces
+            .surface
+            .with_landing(Landing::Bouncing)
+            .expect("a level surface");
         for (preset, method, left) in expected {
             let launches = preset.distribution();
             assert_eq!(of(&launches), Some(method), "{preset}");

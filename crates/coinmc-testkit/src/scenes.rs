@@ -35,9 +35,15 @@ pub fn rolling_scene(ratio: f64, restitution: f64, friction: f64, rho: f64) -> S
 }
 
 /// The same scene where the coin stays at its first contact.
+///
+/// # Panics
+/// If the table is tilted.
 #[must_use]
 pub fn adhesive(mut scene: Scene) -> Scene {
-    scene.surface = scene.surface.with_landing(Landing::Adhesive);
+    scene.surface = scene
+        .surface
+        .with_landing(Landing::Adhesive)
+        .expect("a level surface");
     scene
 }
 

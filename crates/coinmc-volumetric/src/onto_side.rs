@@ -227,7 +227,9 @@ mod tests {
         let plane = |friction| Surface::new(0.5, friction).expect("a valid surface");
         assert_eq!(ending(plane(0.3)), SideMotion::Rolled);
         assert_eq!(ending(plane(0.0)), SideMotion::Rested);
-        let sticky = plane(0.3).with_landing(Landing::Adhesive);
+        let sticky = plane(0.3)
+            .with_landing(Landing::Adhesive)
+            .expect("a level surface");
         assert_eq!(ending(sticky), SideMotion::Rested);
     }
 }

@@ -125,7 +125,7 @@ impl Surface {
             .and_then(|surface| surface.with_friction_lengths(rolling, pivoting))
             .and_then(|surface| surface.with_restitution_threshold(threshold))
             .and_then(|surface| surface.with_speed_dependent_restitution(exponent, reference))
-            .map(|surface| surface.with_roughness(roughness).with_landing(landing))
+            .and_then(|surface| surface.with_roughness(roughness).with_landing(landing))
             .and_then(|surface| match table_radius {
                 Some(radius_m) => surface.with_table_radius(radius_m),
                 None => Ok(surface),

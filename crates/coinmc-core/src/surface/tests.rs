@@ -87,13 +87,17 @@ fn a_level_table_is_no_tilted_one_and_needs_no_friction() {
 /// The closed forms are for level ground.
 #[test]
 fn where_the_first_contact_decides_the_table_is_level() {
-    let adhesive = wood().with_landing(Landing::Adhesive);
+    let landing = |surface: Surface, landing| surface.with_landing(landing);
+    let adhesive = landing(wood(), Landing::Adhesive).expect("a level table");
     assert_eq!(adhesive.landing(), Landing::Adhesive);
-    assert_eq!(
-        adhesive.with_tilt(tilt(1.0)),
-        Err(SurfaceError::TiltedAdhesive)
-    );
-    assert!(adhesive.with_tilt(tilt(0.0)).is_ok() && wood().with_tilt(tilt(1.0)).is_ok());
+    let refused = Err(SurfaceError::TiltedAdhesive);
+    assert_eq!(adhesive.with_tilt(tilt(1.0)), refused);
+    assert!(adhesive.with_tilt(tilt(0.0)).is_ok());
+    let tilted = wood().with_tilt(tilt(1.0)).expect("nothing slides");
+    assert_eq!(landing(tilted, Landing::Adhesive), refused);
+    assert_eq!(landing(tilted, Landing::Bouncing), Ok(tilted));
+    let level = tilted.with_tilt(tilt(0.0)).expect("nothing slides");
+    assert!(landing(level, Landing::Adhesive).is_ok());
 }
 
 /// At the reference speed a coin bounces with e as given, and k times as fast with e k^-p.

@@ -152,7 +152,10 @@ fn laws_with_a_duration() {
 fn adhesive_landings() {
     for ratio in [0.1, 1.2, 10.0] {
         let mut scene = scene(ratio, 0.0, 0.0);
-        scene.surface = scene.surface.with_landing(Landing::Adhesive);
+        scene.surface = scene
+            .surface
+            .with_landing(Landing::Adhesive)
+            .expect("a level surface");
         for preset in [Preset::CleanFlat, Preset::Robot] {
             let launches = launches(&scene, preset, 2000);
             let outcomes = assert_lanes_agree(&scene, &Settings::default(), &launches);

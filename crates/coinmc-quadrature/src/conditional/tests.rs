@@ -10,7 +10,8 @@ const TOSSES: u64 = 400;
 fn scene(ratio: f64, drag: f64, gyroscopic: bool) -> Scene {
     let surface = Surface::new(0.0, 0.0)
         .unwrap()
-        .with_landing(Landing::Adhesive);
+        .with_landing(Landing::Adhesive)
+        .expect("a level surface");
     let scene = Scene::new(Coin::cylinder(ratio, 0.01).unwrap(), surface, 9.81).unwrap();
     scene
         .with_drag(Drag::new(drag, 2.0 * drag).unwrap())

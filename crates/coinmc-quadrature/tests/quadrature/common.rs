@@ -10,7 +10,8 @@ use coinmc_volumetric::{Moreau, Settings, VolumetricEngine};
 pub(crate) fn scene(ratio: f64) -> Scene {
     let surface = Surface::new(0.0, 0.0)
         .unwrap()
-        .with_landing(Landing::Adhesive);
+        .with_landing(Landing::Adhesive)
+        .expect("a level surface");
     Scene::new(Coin::cylinder(ratio, 0.01).unwrap(), surface, 9.81).unwrap()
 }
 

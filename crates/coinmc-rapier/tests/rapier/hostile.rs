@@ -133,7 +133,10 @@ fn limits_are_kept() {
     );
     assert_eq!(short.toss(&launch).ended, Ended::TimeLimit);
     let mut adhesive = scene;
-    adhesive.surface = scene.surface.with_landing(Landing::Adhesive);
+    adhesive.surface = scene
+        .surface
+        .with_landing(Landing::Adhesive)
+        .expect("a level surface");
     let mut short = Tosser::new(
         &adhesive,
         &Settings {

@@ -42,7 +42,10 @@ fn a_plate_comes_to_rest_on_a_face() {
 fn adhesive_without_spin_is_the_well_it_began_in() {
     for ratio in [0.1, 0.7, 1.0, 3.0] {
         let mut scene = scene(ratio, 0.5, 0.3);
-        scene.surface = scene.surface.with_landing(Landing::Adhesive);
+        scene.surface = scene
+            .surface
+            .with_landing(Landing::Adhesive)
+            .expect("a level surface");
         let mut tosser = Tosser::new(&scene, &quick());
         let half = ratio / 2.0 / (1.0 + ratio * ratio / 4.0_f64).sqrt();
         for toss in 0..2000 {
@@ -68,7 +71,10 @@ fn adhesive_landings_are_those_of_the_event_driven_engine() {
     use coinmc_volumetric::{Moreau, Settings, VolumetricEngine};
     for ratio in [0.25, 1.0, 2.0] {
         let mut scene = scene(ratio, 0.5, 0.3);
-        scene.surface = scene.surface.with_landing(Landing::Adhesive);
+        scene.surface = scene
+            .surface
+            .with_landing(Landing::Adhesive)
+            .expect("a level surface");
         let events = VolumetricEngine::new(&scene, &Settings::default(), Moreau).unwrap();
         let mut tosser = Tosser::new(&scene, &quick());
         for toss in 0..5000 {

@@ -116,7 +116,12 @@ fn drag_threshold_adhesion_no_gyroscopic_torque_and_high_or_held_friction() {
         rounded(0.5, 0.2, surface(0.5, 0.0, 0.0)).with_drag(drag),
         scene(0.25, surface(0.8, 0.0, 0.0)).with_drag(drag),
         scene(2.0, threshold.expect("a valid surface")),
-        scene(1.0, surface(0.5, 0.3, 0.0).with_landing(Landing::Adhesive)),
+        scene(
+            1.0,
+            surface(0.5, 0.3, 0.0)
+                .with_landing(Landing::Adhesive)
+                .expect("a level surface"),
+        ),
         scene(0.85, surface(0.3, 5.0, 0.01)),
         scene(3.0, surface(0.0, 2.0, 0.003)),
         scene(0.85, surface(0.5, 0.3, 0.01)).with_gyroscopic_torque(false),

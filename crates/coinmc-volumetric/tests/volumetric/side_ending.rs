@@ -95,7 +95,9 @@ fn a_coin_that_lands_straight_rests() {
     };
     assert_ending(&scene(surface(CONTOUR)), &dropped, SideMotion::Rested, 0);
     let fast = on_side(Vector3::new(0.0, 1.0, 0.0), Vector3::zeros());
-    let adhesive = surface(CONTOUR).with_landing(Landing::Adhesive);
+    let adhesive = surface(CONTOUR)
+        .with_landing(Landing::Adhesive)
+        .expect("a level surface");
     assert_ending(&scene(adhesive), &fast, SideMotion::Rested, 0);
 }
 

@@ -95,7 +95,10 @@ fn a_flat_coin_slides_to_the_edge() {
 #[test]
 fn an_adhesive_table_holds_a_coin_where_it_lands() {
     let mut scene = plane(0.85, 0.3);
-    scene.surface = scene.surface.with_landing(Landing::Adhesive);
+    scene.surface = scene
+        .surface
+        .with_landing(Landing::Adhesive)
+        .expect("a level surface");
     let (half, fall) = (0.5 * 0.85 * RADIUS, 0.2_f64);
     let velocity = Vector3::new(0.5, 0.0, 0.0);
     let drops = launch(half + fall, Vector3::z(), velocity, Vector3::zeros());
