@@ -52,7 +52,7 @@ pub struct Assumption {
 /// Radius of a 1 euro coin, m: 23.25 mm in diameter.
 const EURO_RADIUS_M: f64 = 0.011_625;
 
-/// Mean spin of a toss by hand, rad/s, and its mean angle to the axis: those of the preset `hand`,
+/// Mean spin of a toss by hand, rad/s, and its mean angle of the angular momentum to the axis: those of the preset `hand`,
 /// spelled out so that each can be varied.
 const HAND_RATE_RAD_S: f64 = 238.6;
 const HAND_PSI_DEG: f64 = 81.0;
@@ -226,7 +226,7 @@ impl EverydayScene {
             },
             Assumption {
                 key: "launch.spin.precessing.psi_deg.normal.mean",
-                name: "angle between spin and axis, degrees",
+                name: "angle between angular momentum and axis, degrees",
                 value: HAND_PSI_DEG,
                 low: 60.0,
                 high: 90.0,

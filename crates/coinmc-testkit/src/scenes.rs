@@ -71,7 +71,7 @@ pub fn preset_launch(preset: Preset, scene: &Scene, seed: u64, toss: u64) -> Lau
     preset.distribution().launch(&scene.coin, &mut uniforms)
 }
 
-/// The launches of the preset `hand`, all with this angle between spin and axis.
+/// The launches of the preset `hand`, all with this angle between angular momentum and axis.
 ///
 /// # Panics
 /// If the preset no longer precesses.

@@ -22,7 +22,7 @@ Examples:
 /// Most lines about points that are biased.
 const TOLD: usize = 8;
 
-/// Toss every point with tolerances a tenth, by the same launches, and show what changes
+/// Toss every point again, by the same launches, with every tolerance ten times smaller, and show what changes
 ///
 /// The shift of a face is P with tight settings minus P with those of the config: how far its probability is off
 /// because the engine computes with finite tolerances. Only tosses that end on another face contribute to its error.
