@@ -62,6 +62,7 @@ impl Asked {
         workers: &Workers<'_>,
     ) -> Result<String, QuestionError> {
         let fair = answer(template, question, workers)?;
+        let overrides = parsed(&self.overrides).unwrap_or_default();
         let root = match &fair.curves[..] {
             [curve] => curve.roots().next(),
             _ => None,
@@ -71,13 +72,12 @@ impl Asked {
             && self.assumption_tosses > 0
         {
             let sized = self.diameter_m.or(self.volume_m3).is_some();
-            let overrides = parsed(&self.overrides).unwrap_or_default();
-            let assumed = scene.assumed(&overrides);
+            let assumed = scene.assumed(&overrides).into_iter();
             let assumed = assumed.filter(|assumed| !(sized && assumed.key == "coin.radius_m"));
             let tosses = self.assumption_tosses;
             found = effects(template, &fair, root, assumed, tosses, workers)?;
         }
-        Ok(document(&fair, scene.as_ref(), &found).to_string())
+        Ok(document(&fair, (scene.as_ref(), &overrides), &found).to_string())
     }
 }
 

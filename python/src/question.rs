@@ -43,7 +43,11 @@ pub(crate) fn template(
 /// What an everyday scene assumes and nothing says otherwise.
 pub(crate) fn unknowns(scene: &EverydayScene, overrides: &[String]) -> PyResult<Vec<Unknown>> {
     let overrides = parsed(overrides)?;
-    Ok(scene.assumed(&overrides).map(Unknown::from).collect())
+    Ok(scene
+        .assumed(&overrides)
+        .into_iter()
+        .map(Unknown::from)
+        .collect())
 }
 
 /// The face of a name.

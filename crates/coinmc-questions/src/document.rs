@@ -3,20 +3,27 @@
 use crate::assumptions::Effect;
 use crate::scenes::EverydayScene;
 use crate::{Curve, Fair, Finding, Root};
+use coinmc::config::Override;
 use serde_json::{Map, Value, json};
 
 /// Version of all documents of answers. It stays when fields are added, and changes when a field changes its
 /// meaning or is removed.
 pub(crate) const FORMAT_VERSION: u32 = 1;
 
-/// An answer, with the everyday scene it is for and the effects of that scene's assumptions, as a JSON
-/// document. docs/reference/formats.md describes its fields.
-pub fn document(answer: &Fair, scene: Option<&EverydayScene>, effects: &[Effect]) -> Value {
+/// An answer, with the everyday scene it is for, what was changed of it or of a config, and the effects of that scene's
+/// assumptions, as a JSON document. docs/reference/formats.md describes its fields.
+pub fn document(
+    answer: &Fair,
+    (scene, overrides): (Option<&EverydayScene>, &[Override]),
+    effects: &[Effect],
+) -> Value {
     let question = &answer.question;
+    let overrides: Vec<_> = overrides.iter().map(Override::text).collect();
     json!({
         "format_version": FORMAT_VERSION,
         "kind": "fair",
         "scene": scene.map(|scene| scene.name),
+        "overrides": overrides,
         "parameter": question.key,
         "searched": question.range,
         "face": question.face.name(),

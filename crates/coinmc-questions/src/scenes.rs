@@ -57,6 +57,9 @@ const EURO_RADIUS_M: f64 = 0.011_625;
 const HAND_RATE_RAD_S: f64 = 238.6;
 const HAND_PSI_DEG: f64 = 81.0;
 
+/// The one number of a scene's surface that is not its material's.
+const TABLE_RADIUS: &str = "surface.table_radius_m";
+
 impl EverydayScene {
     /// All scenes; the first is taken if none is named.
     pub const ALL: [Self; 9] = [
@@ -151,10 +154,33 @@ impl EverydayScene {
         self.material.parse().expect("a scene's material exists")
     }
 
-    /// What it assumes and `overrides` do not say otherwise.
-    pub fn assumed(&self, overrides: &[Override]) -> impl Iterator<Item = Assumption> {
-        let assumptions = self.assumptions().into_iter();
-        assumptions.filter(|assumed| !overrides.iter().any(|set| set.is_about(assumed.key)))
+    /// In words, with what `overrides` change of it.
+    pub fn described(&self, overrides: &[Override]) -> String {
+        let mut text = format!(
+            "{}; a coin of metal, tossed by hand from {:?} m above it",
+            self.doc, self.height_m
+        );
+        if !overrides.is_empty() {
+            text += &format!("; but with {}", changed(overrides));
+        }
+        text
+    }
+
+    /// What it assumes and `overrides` do not say otherwise, by whatever key: what is left of its own numbers in
+    /// its config, and is not given there. (A material gives all of its numbers.)
+    pub fn assumed(&self, overrides: &[Override]) -> Vec<Assumption> {
+        let plan = self.template(overrides).plan(&[]);
+        let given = |key: &str| {
+            let of_material = key.starts_with("surface.") && key != TABLE_RADIUS;
+            overrides
+                .iter()
+                .any(|set| set.is_about(key) || of_material && set.is_about("surface.material"))
+        };
+        let is_left = |assumed: &Assumption| {
+            let now = plan.as_ref().ok().and_then(|plan| plan.number(assumed.key));
+            now == Some(assumed.value) && !given(assumed.key)
+        };
+        self.assumptions().into_iter().filter(is_left).collect()
     }
 
     /// What it assumes, and within which limits.
@@ -242,7 +268,7 @@ impl EverydayScene {
             },
         ];
         assumptions.extend(self.table_radius_m.map(|radius_m| Assumption {
-            key: "surface.table_radius_m",
+            key: TABLE_RADIUS,
             name: "radius of the table, m",
             value: radius_m,
             low: 0.5 * radius_m,
@@ -253,9 +279,75 @@ impl EverydayScene {
     }
 }
 
+/// What is changed of a scene, as it was typed.
+pub(crate) fn changed(overrides: &[Override]) -> String {
+    let changes: Vec<_> = overrides.iter().map(Override::text).collect();
+    changes.join(", ")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn keys(overrides: &[&str]) -> Vec<&'static str> {
+        let felt = EverydayScene::named("felt").expect("a scene");
+        let overrides: Vec<Override> = overrides
+            .iter()
+            .map(|set| set.parse().expect("an override"))
+            .collect();
+        let assumed = felt.assumed(&overrides).into_iter();
+        assumed.map(|assumed| assumed.key).collect()
+    }
+
+    /// Whatever gives a number, it is no assumption any more: its own key, another that means the same, a material, another
+    /// preset; the value that it had, too.
+    #[test]
+    fn what_is_given_is_not_assumed() {
+        let all = keys(&[]);
+        let left_out = |overrides: &[&str]| {
+            let left = keys(overrides);
+            let out = all.iter().filter(|key| !left.contains(key)).copied();
+            out.collect::<Vec<_>>()
+        };
+        assert_eq!(all.len(), 10);
+        for (set, out) in [
+            ("surface.friction=0.4", "surface.friction"),
+            ("surface.friction=[0.3, 0.4]", "surface.friction"),
+            ("coin.diameter_mm=30", "coin.radius_m"),
+            (
+                "surface.pivoting_friction_m=0.001",
+                "surface.contact_patch_m",
+            ),
+            (
+                "surface.rolling_friction_over_radius=0.01",
+                "surface.rolling_friction_m",
+            ),
+            ("launch.height_m=0.1", "launch.height_m"),
+        ] {
+            assert_eq!(left_out(&[set]), [out], "{set}");
+        }
+        for material in ["wood", "felt"] {
+            let out = left_out(&[&format!("surface.material={material}")]);
+            assert_eq!(out.len(), 6);
+            assert!(out.iter().all(|key| key.starts_with("surface.")));
+        }
+        let out = left_out(&["launch={ preset = 'drop', height_m = 0.3 }"]);
+        assert!(out.iter().all(|key| key.starts_with("launch.")) && out.len() == 3);
+    }
+
+    #[test]
+    fn a_scene_is_described_with_what_was_changed() {
+        let felt = EverydayScene::named("felt").expect("a scene");
+        let plain =
+            "a table covered with loose felt; a coin of metal, tossed by hand from 0.3 m above it";
+        assert_eq!(felt.described(&[]), plain);
+        let sets = ["surface.material=wood", "launch.height_m=1"];
+        let sets = sets.map(|set| set.parse().expect("an override"));
+        assert_eq!(
+            felt.described(&sets),
+            format!("{plain}; but with surface.material=wood, launch.height_m=1")
+        );
+    }
 
     /// The launch spelled out is that of the preset but for its height, and every assumption is a
     /// number of the config.

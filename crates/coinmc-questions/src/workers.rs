@@ -105,6 +105,15 @@ impl Changes {
         [first, self.with(|_| true, |second| second == end)]
     }
 
+    /// The tosses at the second point.
+    pub(crate) fn seen_at_second(&self, face: Face) -> Seen {
+        Seen {
+            tosses: self.tosses(),
+            shown: self.ended(face as usize)[1],
+            undecided: self.undecided()[1],
+        }
+    }
+
     /// The tosses at the first point.
     pub(crate) fn seen(&self, face: Face) -> Seen {
         Seen {

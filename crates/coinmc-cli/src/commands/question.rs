@@ -54,7 +54,7 @@ impl SceneArgs {
     }
 
     /// What an everyday scene assumes and the command line does not say otherwise.
-    pub(super) fn assumed(&self, scene: &EverydayScene) -> impl Iterator<Item = Assumption> {
+    pub(super) fn assumed(&self, scene: &EverydayScene) -> Vec<Assumption> {
         scene.assumed(&self.overrides)
     }
 }

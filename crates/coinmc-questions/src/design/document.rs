@@ -2,6 +2,7 @@
 
 use super::{Designed, TEST, THICKNESS_ERRORS_M};
 use crate::document::FORMAT_VERSION;
+use coinmc::config::Override;
 use coinmc_core::Estimate;
 use serde_json::{Value, json};
 
@@ -31,6 +32,7 @@ pub fn document_of_design(designed: &Designed) -> Value {
         "format_version": FORMAT_VERSION,
         "kind": "design",
         "scene": designed.scene.map(|scene| scene.name),
+        "overrides": designed.overrides.iter().map(Override::text).collect::<Vec<_>>(),
         "target": designed.fair.question.target,
         "ratio": root.value,
         "ratio_lo": root.lo,

@@ -103,6 +103,8 @@ pub enum DesignError {
 pub struct Designed {
     /// The everyday scene, if it is for one.
     pub scene: Option<EverydayScene>,
+    /// What was changed of the scene, or of the config.
+    pub overrides: Vec<Override>,
     /// The search for the ratio.
     pub fair: Fair,
     /// The ratio.
@@ -156,7 +158,8 @@ pub fn design(
     let mut effects = vec![];
     if let Some(scene) = scene {
         let of_size = |assumed: &Assumption| assumed.key == "coin.radius_m";
-        let assumed = scene.assumed(overrides).filter(|assumed| !of_size(assumed));
+        let assumed = scene.assumed(overrides).into_iter();
+        let assumed = assumed.filter(|assumed| !of_size(assumed));
         let tosses = ASSUMPTION_TOSSES;
         effects = assumptions::effects(&template, &fair, &root, assumed, tosses, workers)?;
     }
@@ -167,6 +170,7 @@ pub fn design(
         mass: coin.mass(&shape)?,
         mesh: shape.mesh(shape.chord_error_m())?,
         scene,
+        overrides: overrides.to_vec(),
         fair,
         root,
         effects,

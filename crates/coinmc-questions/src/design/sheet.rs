@@ -3,12 +3,15 @@
 use super::{CHANGES, Designed, TEST, THICKNESS_ERRORS_M};
 use crate::drawing::escaped;
 use crate::number::{compact, grouped};
+use crate::scenes::changed;
 use coinmc_solid::{Edge, Shape};
 
 /// Left edge of the text, mm.
 const LEFT: f64 = 20.0;
 /// Height of a line, mm.
 const LINE: f64 = 5.5;
+/// Characters of what was changed of a scene.
+const CHANGED: usize = 90;
 /// Greatest size of a drawing, mm; larger coins are drawn smaller.
 const DRAWN: f64 = 60.0;
 
@@ -125,6 +128,11 @@ impl Page {
             ),
             None => "Tossed as its config says.".to_owned(),
         });
+        if designed.scene.is_some() && !designed.overrides.is_empty() {
+            // longer lists would leave the page
+            let changed: String = changed(&designed.overrides).chars().take(CHANGED).collect();
+            self.line(format!("But with {changed}."));
+        }
     }
 
     /// The coin from above and from the side.

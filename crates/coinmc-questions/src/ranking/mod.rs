@@ -318,15 +318,10 @@ fn tornado(
     let changes = workers.compare_with(at(own), &ends, 0..question.tosses)?;
     let p = changes[0].seen(question.face).estimate(own);
     let ends = changes.iter().map(|changes| {
-        let (change, error) = changes.difference(question.face);
-        let Interval { value, lo, hi } = Interval::normal(p.p + change, error, own.confidence);
-        let [_, undecided] = changes.undecided();
-        let any_face = undecided as f64 / changes.tosses() as f64;
-        let p = Interval {
-            value,
-            lo: lo.max(0.0),
-            hi: (hi + any_face).min(1.0),
-        };
+        let seen = changes.seen_at_second(question.face);
+        let Estimate { p, lo, hi, .. } = seen.estimate(own);
+        let p = Interval { value: p, lo, hi };
+        let undecided = seen.undecided;
         End { p, undecided }
     });
     Ok((p, ends.collect()))

@@ -103,6 +103,11 @@ fn key_path(text: &str) -> Option<Vec<(String, Range<usize>)>> {
 }
 
 impl Override {
+    /// What was typed, `key.path=value`.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// Whether it gives a value to this dotted key, or to a table that holds it.
     pub fn is_about(&self, key: &str) -> bool {
         let mut wanted = key.split('.');

@@ -33,6 +33,8 @@ const LEAST_WITH_PILOT: u64 = 1 << 12;
 const FIRST_SHARE: f64 = 0.97;
 /// Standard errors of the pilot by which the first look is later than the pilot says.
 const MARGIN: f64 = 2.5;
+/// Times as many tosses as the pilot says that the first look is later at most.
+const MOST_MARGIN: f64 = 3.0;
 /// Standard errors of the pilot by which undecided tosses must be too many, before a point is given up.
 const SURE: f64 = 4.0;
 /// More tosses than any point may make.
@@ -217,15 +219,22 @@ impl Looks {
         } else {
             0.0
         };
-        let needed = self.needed(tally, undecided, 0.0, confidence);
-        let needed = ceil(needed).min(self.limit);
-        let pilot = (needed / 32).clamp(PILOT, 1 << 62).next_power_of_two();
-        let pilot = if self.limit < LEAST_WITH_PILOT {
-            0
-        } else {
-            pilot
-        };
-        needed.saturating_add(pilot).min(self.limit)
+        let needed =
+            |errors, seen: u64| self.needed((tally, seen as f64), undecided, errors, confidence);
+        let exactly = needed(0.0, 1);
+        if self.limit < LEAST_WITH_PILOT {
+            return ceil(exactly).min(self.limit);
+        }
+        let (mut pilot, mut at_most);
+        pilot = PILOT;
+        loop {
+            at_most = needed(MARGIN, pilot).min(MOST_MARGIN * exactly);
+            if !self.pilot_goes_on(pilot, exactly, at_most) {
+                break;
+            }
+            pilot *= 2;
+        }
+        ceil(at_most).saturating_add(pilot).min(self.limit)
     }
 
     /// Lets the pilot be a part of at most `tosses` in all.
@@ -245,18 +254,11 @@ impl Looks {
         } else {
             share_undecided(tally)
         };
-        let needed = self.needed(tally, undecided, 0.0, confidence);
-        let needed_at_most = self.needed(tally, undecided, MARGIN, confidence);
-        let needed_at_most = needed_at_most.min(3.0 * needed);
-        let most = self.limit_of_pilot as f64;
-        // the margin shrinks like 1/√n
-        let is_worth = if needed < most {
-            (needed_at_most - needed) * (1.0 - FRAC_1_SQRT_2) > made as f64
-        } else {
-            made as f64 * 32.0 < most
-        };
-        let has_room = made <= self.limit_of_pilot / 8;
-        if is_worth && has_room {
+        let seen = (tally, tally.tosses() as f64);
+        let needed = self.needed(seen, undecided, 0.0, confidence);
+        let needed_at_most = self.needed(seen, undecided, MARGIN, confidence);
+        let needed_at_most = needed_at_most.min(MOST_MARGIN * needed);
+        if self.pilot_goes_on(made, needed, needed_at_most) {
             self.stage = made..2 * made;
             return;
         }
@@ -271,6 +273,19 @@ impl Looks {
         }
     }
 
+    /// Whether a pilot of so many tosses becomes twice as long, as it says that so many are needed and, by its own error,
+    /// at most so many.
+    fn pilot_goes_on(&self, made: u64, needed: f64, needed_at_most: f64) -> bool {
+        let most = self.limit_of_pilot as f64;
+        // the margin shrinks like 1/√n
+        let is_worth = if needed < most {
+            (needed_at_most - needed) * (1.0 - FRAC_1_SQRT_2) > made as f64
+        } else {
+            made as f64 * 32.0 < most
+        };
+        is_worth && made <= self.limit_of_pilot / 8
+    }
+
     /// Whether some number of tosses meets the targets with so few undecided ones as the tally allows, or none
     /// would without any.
     fn lets_hope(&self, tally: &Tally, confidence: f64) -> bool {
@@ -279,16 +294,23 @@ impl Looks {
         if least <= 0.0 {
             return true;
         }
-        let needed = |undecided| self.needed(tally, undecided, 0.0, confidence);
+        let needed = |undecided| self.needed((tally, n), undecided, 0.0, confidence);
         needed(least).is_finite() || needed(0.0).is_infinite()
     }
 
     /// Tosses after which the targets are met, if this share of them is undecided and the probabilities are
-    /// those of the tally, or any that `errors` standard errors allow; infinite if no number will do.
-    fn needed(&self, tally: &Tally, undecided: f64, errors: f64, confidence: f64) -> f64 {
-        let n = tally.tosses() as f64;
+    /// those of the tally, or any that `errors` standard errors of `n` tosses like its own allow; infinite if no number
+    /// will do.
+    fn needed(
+        &self,
+        (tally, n): (&Tally, f64),
+        undecided: f64,
+        errors: f64,
+        confidence: f64,
+    ) -> f64 {
+        let share = n / tally.tosses() as f64;
         let of_face = |face| {
-            let k = tally.count(face) as f64;
+            let k = tally.count(face) as f64 * share;
             let arm = errors * (k * (n - k) / n).sqrt();
             let [least, most] = [k - arm, k + arm].map(|count| (count / n).clamp(0.0, 1.0));
             [least, k / n, most, 0.5_f64.clamp(least, most)]

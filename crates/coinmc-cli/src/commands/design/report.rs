@@ -2,7 +2,7 @@
 
 use crate::terminal::table::{Column, Table};
 use crate::terminal::with_interval;
-use crate::terminal::{Colors, Style, compact, decimals_that_show, grouped, in_ascii};
+use crate::terminal::{Colors, Style, compact, decimals_that_show, grouped, in_ascii, wrapped};
 use coinmc_questions::{Designed, Root, TEST, THICKNESS_ERRORS_M};
 use std::path::PathBuf;
 
@@ -29,7 +29,9 @@ pub(super) fn text(
     let mut text = format!("{}\n", style.paint(Colors::Strong, &title));
     text += &other_diameter(shape.diameter_m(), told);
     if let Some(scene) = designed.scene {
-        text += &format!("for the scene {}: {}\n", scene.name, scene.doc);
+        let described = scene.described(&designed.overrides);
+        let line = format!("for the scene {}: {described}", scene.name);
+        text += &wrapped(&line, style.width, 0);
     }
     text += &shortcomings(root, designed.fair.question.half_width);
     text += &faces(designed);

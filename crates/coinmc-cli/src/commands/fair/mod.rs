@@ -116,6 +116,8 @@ fn by_option(error: QuestionError) -> Unanswered {
 /// The answer, and what it rests on.
 struct Answered {
     scene: Option<EverydayScene>,
+    /// The scene in words, with what the command line changes of it.
+    described: String,
     answer: Answer,
     /// Effects of the scene's assumptions on its only root.
     effects: Vec<Effect>,
@@ -172,7 +174,9 @@ impl Fair {
             effects =
                 assumptions::effects(template, &answer, root, assumed, self.assumptions, workers)?;
         }
+        let overrides = self.scene.overrides();
         Ok(Answered {
+            described: scene.map_or_else(String::new, |scene| scene.described(overrides)),
             scene,
             answer,
             effects,
@@ -194,7 +198,7 @@ impl Fair {
     /// What the scene assumes and the command line does not say otherwise.
     fn assumed(&self, scene: &EverydayScene) -> impl Iterator<Item = Assumption> {
         let sized = self.diameter.is_some() || self.volume.is_some() || self.mass.is_some();
-        let assumed = self.scene.assumed(scene);
+        let assumed = self.scene.assumed(scene).into_iter();
         assumed.filter(move |assumed| !(sized && assumed.key == "coin.radius_m"))
     }
 
@@ -202,7 +206,7 @@ impl Fair {
         match console.format() {
             Format::Json => output::print_json(&questions::document(
                 &answered.answer,
-                answered.scene.as_ref(),
+                (answered.scene.as_ref(), self.scene.overrides()),
                 &answered.effects,
             )),
             Format::Table => output::print(&report::text(answered, self.show, console.stdout())),

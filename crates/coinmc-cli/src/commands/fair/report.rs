@@ -14,17 +14,13 @@ use coinmc_questions::{Curve, Fair, Finding, Root, Scanned};
 pub(super) fn text(answered: &Answered, show: bool, style: &Style) -> String {
     let Answered {
         scene,
+        described,
         answer,
         effects,
     } = answered;
     let mut text = String::new();
     if let Some(scene) = scene {
-        let line = format!(
-            "Scene {}: {}; a coin of metal, tossed by hand from {} m above it.",
-            scene.name,
-            scene.doc,
-            compact(scene.height_m)
-        );
+        let line = format!("Scene {}: {described}.", scene.name);
         text += &wrapped(&line, style.width, 0);
     }
     let title = format!(

@@ -106,7 +106,7 @@ impl SensitivityOf {
         let (scene, template) = self.scene.template()?;
         let mut unknowns: Vec<Unknown> = self.over.iter().map(KeyRange::unknown).collect();
         if let (true, Some(scene)) = (self.rank, scene) {
-            let assumed = self.scene.assumed(&scene).map(Unknown::from);
+            let assumed = self.scene.assumed(&scene).into_iter().map(Unknown::from);
             let given: Vec<String> = unknowns.iter().map(|unknown| unknown.key.clone()).collect();
             unknowns.extend(assumed.filter(|assumed| !given.contains(&assumed.key)));
         }

@@ -27,13 +27,13 @@ pub(super) fn text(ranking: &Ranking, style: &Style) -> String {
         ranking.p.p,
         ranking.p.lo,
         ranking.p.hi,
-        shown(&ranking.mean, undecided),
-        shown(&ranking.deviation, undecided),
+        shown(&ranking.mean),
+        shown(&ranking.deviation),
     );
     text += &table.render(style).text;
     text += match (ranking.deviation.lo == 0.0, undecided) {
         (true, false) => {
-            "The tosses do not show that P moves at all: it has no variance to divide.\n"
+            "The samples are too few to show that P moves: there is no variance to divide.\n"
         }
         (true, true) => {
             "Whether P moves depends on what the undecided tosses would have shown: no ranking.\n"
@@ -77,8 +77,8 @@ fn cells(ranked: &Ranked, undecided: bool) -> Vec<String> {
         unknown.key.clone(),
         compact(unknown.from),
         compact(unknown.to),
-        shown(&ranked.ends[0], undecided),
-        shown(&ranked.ends[1], undecided),
+        shown(&ranked.ends[0]),
+        shown(&ranked.ends[1]),
         index(&ranked.first),
         index(&ranked.total),
     ]
@@ -89,13 +89,9 @@ fn clean(x: f64) -> f64 {
     libm::round(100.0 * x) / 100.0 + 0.0
 }
 
-/// A number and its interval, which undecided tosses widen to one side.
-fn shown(interval: &Interval, undecided: bool) -> String {
-    if undecided {
-        let Interval { value, lo, hi } = interval;
-        return format!("{value:.3} [{lo:.3}, {hi:.3}]");
-    }
-    let arm = interval.half_width();
-    let decimals = decimals_that_show(arm, 3);
-    format!("{:.decimals$} ± {arm:.decimals$}", interval.value)
+/// A number and its interval, which ends at 0 and 1.
+fn shown(interval: &Interval) -> String {
+    let Interval { value, lo, hi } = interval;
+    let decimals = decimals_that_show(interval.half_width(), 3);
+    format!("{value:.decimals$} [{lo:.decimals$}, {hi:.decimals$}]")
 }
