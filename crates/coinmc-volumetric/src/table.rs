@@ -23,9 +23,13 @@ use crate::toss::Toss;
 use coinmc_core::{
     Ended, Event, EventKind, Face, Launch, Observer, OntoSide, Scene, SideEnding, State, TableTilt,
 };
+use nalgebra::Vector2;
 
 /// Smallest way between two looks at the centre, in radii of the coin.
 const RESOLUTION: f64 = 0.01;
+
+/// A coin that rolls no faster than this, in sqrt(g D), does not roll but for the errors of its motion.
+const LEAST_ROLLING: f64 = 1e-6;
 
 /// A round or endless table, above whose middle coins are launched.
 #[derive(Debug, Clone)]
@@ -60,16 +64,29 @@ impl<L: ImpactLaw> Table<L> {
         }))
     }
 
-    /// Whether a coin that slides on for ever without friction, slowed down by drag alone if at all, or
-    /// that rolls down a slope for ever, does so beyond the edge.
-    fn coasts_away(&self, state: &State) -> bool {
+    /// Whether a coin that slides or rolls on for ever, slowed down by drag alone if at all, or that rolls down a
+    /// slope, does so beyond the edge.
+    ///
+    /// Without friction nothing changes the horizontal velocity of the launch, above the middle of the table: the
+    /// errors of a long motion do not move a coin. With friction it rolls, across its axis; what it creeps along it
+    /// is an error, too, which friction would stop.
+    fn coasts_away(&self, launch: &Launch, state: &State) -> bool {
         if self.tilt.is_some() {
             return self.radius_m < f64::INFINITY;
         }
-        let velocity = state.velocity_m_s.xy();
+        let (from, velocity) = if self.scene.surface.friction() == 0.0 {
+            (Vector2::zeros(), launch.velocity_m_s.xy())
+        } else {
+            let along = state.axis.xy().try_normalize(0.0);
+            let along = along.unwrap_or_else(Vector2::zeros);
+            let velocity = state.velocity_m_s.xy();
+            let rolling = velocity - along * along.dot(&velocity);
+            let rolls = rolling.norm() > LEAST_ROLLING * self.model.units.speed_m_s();
+            let rolling = if rolls { rolling } else { Vector2::zeros() };
+            (state.position_m.xy(), rolling)
+        };
         let drag = self.scene.drag().linear_per_s();
-        velocity.norm() > 0.0
-            && (drag == 0.0 || (state.position_m.xy() + velocity / drag).norm() > self.radius_m)
+        velocity.norm() > 0.0 && (drag == 0.0 || (from + velocity / drag).norm() > self.radius_m)
     }
 }
 
@@ -200,7 +217,10 @@ impl<L: ImpactLaw> Table<L> {
             Ended::Decided(_) => !self.model.adhesive && !waits,
             _ => false,
         };
-        let coasts = goes_on && watch.last.is_some_and(|last| self.coasts_away(&last));
+        let coasts = goes_on
+            && watch
+                .last
+                .is_some_and(|last| self.coasts_away(launch, &last));
         if watch.left.is_some() || coasts {
             outcome.ended = Ended::Left;
             outcome.side_ending = None;
@@ -386,25 +406,54 @@ mod tests {
         (table.expect("an edge"), at_rest)
     }
 
-    /// A coin that slides without friction leaves a table with an edge, unless air stops it on the way, v/k, before it is there; one
-    /// at rest stays.
+    fn launched(velocity: [f64; 2]) -> Launch {
+        Launch {
+            height_m: 0.1,
+            velocity_m_s: Vector3::new(velocity[0], velocity[1], 2.0),
+            axis: UnitVector3::new_unchecked(Vector3::z()),
+            spin_rad_s: Vector3::zeros(),
+        }
+    }
+
+    /// A coin that slides without friction leaves a table with an edge, unless air stops it on the way, v/k, before it is
+    /// there; one that is let go at rest stays, whatever the errors of its motion have made of that.
     #[test]
     fn a_coin_without_friction_coasts_over_the_edge() {
         for (drag, velocity, away) in [
             (0.0, [0.0, 0.0], false),
             (0.0, [1e-3, 0.0], true),
-            // to .1 + .3/.5 and −.2 − .1/.5: .806 m from the middle
-            (0.5, [0.3, -0.1], true),
-            // to .1 + .3/.6 and −.2 − .1/.6: .703 m
-            (0.6, [0.3, -0.1], false),
-            (0.5, [-0.3, 0.1], false),
+            // .791 m, .703 m
+            (0.4, [0.3, -0.1], true),
+            (0.45, [0.3, -0.1], false),
         ] {
             let (table, mut state) = round(0.75, None, drag);
-            state.velocity_m_s = Vector3::new(velocity[0], velocity[1], 0.0);
-            assert_eq!(table.coasts_away(&state), away, "{drag} {velocity:?}");
+            for error in [0.0, 6e-5] {
+                state.velocity_m_s = Vector3::new(velocity[0] + error, velocity[1], 0.0);
+                let found = table.coasts_away(&launched(velocity), &state);
+                assert_eq!(found, away, "{drag} {velocity:?}");
+            }
         }
         let tilt = TableTilt::new(3.0, 90.0).expect("a valid tilt");
         let (sloped, state) = round(0.75, Some(tilt), 0.5);
-        assert!(sloped.coasts_away(&state));
+        assert!(sloped.coasts_away(&launched([0.0; 2]), &state));
+    }
+
+    /// With friction a coin on its side rolls across its axis; along it, it can only creep by error.
+    #[test]
+    fn a_coin_with_friction_rolls_over_the_edge_across_its_axis() {
+        let (mut table, mut state) = round(0.75, None, 0.0);
+        let surface = Surface::new(0.5, 0.3).and_then(|surface| surface.with_table_radius(0.75));
+        table.scene.surface = surface.expect("a valid surface");
+        state.axis = UnitVector3::new_normalize(Vector3::new(0.6, 0.8, 1e-3));
+        for (velocity, away) in [
+            ([0.0, 0.0], false),
+            ([0.6 * 2e-3, 0.8 * 2e-3], false),
+            ([-0.8 * 2e-3, 0.6 * 2e-3], true),
+            ([-0.8 * 1e-10, 0.6 * 1e-10], false),
+        ] {
+            state.velocity_m_s = Vector3::new(velocity[0], velocity[1], 0.0);
+            let found = table.coasts_away(&launched([0.1, 0.2]), &state);
+            assert_eq!(found, away, "{velocity:?}");
+        }
     }
 }
