@@ -138,8 +138,9 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     ) -> Next {
         if hop.since > 0.0 {
             let (cos, rate) = now.lean();
-            let near =
-                cos.abs() < self.ground.near + (rate / now.sin()).abs() * self.tracks.interval;
+            let is_upper = (rim == Rim::Own) == at.points_down();
+            let near = is_upper
+                || cos.abs() < self.ground.near + (rate / now.sin()).abs() * self.tracks.interval;
             for (i, side) in Rim::BOTH.into_iter().enumerate() {
                 if near && !hop.tracked[i] {
                     *self.tracks.of_mut(side) = self.track_in_flight(hop, side, None, [now, next]);

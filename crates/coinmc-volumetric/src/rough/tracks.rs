@@ -253,7 +253,8 @@ impl Tracks {
         let turn = -spin.turn / motion.sin;
         (self.left, self.interval) = (time, time);
         let thickness = 2.0 * body.half;
-        let near = motion.cos.abs() < ground.near + spin.tilt.abs() * time;
+        // a rim that is lower than the own one is near, however far the coin leans on a steep slope
+        let near = motion.cos < ground.near + spin.tilt.abs() * time;
         let curvature = motion.sin / body.outer_radius();
         let (sin, cos) = sin_cos(turn * time);
         let along = place.direction(-sin, cos);
@@ -306,6 +307,23 @@ mod tests {
             let mut tracks = Tracks::level(0.02);
             tracks.advance(share * 0.02);
             assert_eq!(tracks.at_node(), reached, "{share}");
+        }
+    }
+
+    /// The other rim has a track of its own near upright; and wherever it is the lower one, however far the coin leans.
+    #[test]
+    fn a_rim_below_the_own_one_is_near_the_ground_whatever_the_lean() {
+        let model = crate::rough::test_scenes::Rough::of(0.7, 0.02).model();
+        let ground = model.ground.expect("a rough ground");
+        let body = model.dynamics.body;
+        let place = Place::at([0.3, 0.2], [1.0, 0.0]);
+        for (cos, near) in [(0.6, false), (0.5 * ground.near, true), (-0.6_f64, true)] {
+            let mut motion = Motion::still();
+            (motion.sin, motion.cos) = ((1.0 - cos * cos).sqrt(), cos);
+            let spin = Spin::still();
+            let mut tracks = Tracks::begin(&ground, &body, &motion, &spin, &place);
+            tracks.lay_out(&ground, 0.01, &body, &motion, &spin, &place);
+            assert_eq!(tracks.other.near, near, "{cos}");
         }
     }
 }

@@ -264,3 +264,31 @@ fn a_coin_is_shown_in_one_continuous_motion() {
         assert!(flown > 200, "{flown}");
     }
 }
+
+/// On slopes as steep as these the upper rim of a coin may touch first while it leans far from upright, and the lower
+/// one is then near the ground, too. It is not lifted onto the upper one's: only a coin whose energy ends on a slope is
+/// put where it does, at rest.
+#[test]
+fn a_coin_that_lies_along_a_steep_slope_is_not_lifted() {
+    let (slope, wavelength_m) = (0.2, 0.1);
+    for ratio in [0.7, 1.5, 3.0] {
+        let scene = scene(ratio, slope, wavelength_m);
+        let engine = Tosser::new(&scene);
+        let sigma = slope * wavelength_m / std::f64::consts::TAU;
+        let rocking = 1e-3 + 0.05 * sigma / scene.coin.rim_distance_m();
+        for toss in 0..300 {
+            let launch = preset_launch(Preset::Hand, &scene, 318, toss);
+            let (_, moments) = engine.record(&scene, &launch);
+            for pair in moments.windows(2) {
+                let [before, after] = [&pair[0], &pair[1]].map(|moment| &moment.motion);
+                let moved = (after.position - before.position).norm();
+                let at_once = pair[1].time == pair[0].time;
+                let goes_on = after.velocity.norm() > 0.0;
+                assert!(
+                    !(at_once && goes_on) || moved < rocking,
+                    "toss {toss}: {moved}"
+                );
+            }
+        }
+    }
+}
