@@ -61,9 +61,6 @@ impl Rare {
         let answer = ask(console, &self.answer, |workers| {
             questions::how_rare(&template, &question, workers)
         })?;
-        let Some(answer) = answer else {
-            return Ok(Outcome::Interrupted);
-        };
         match console.format() {
             Format::Json => output::print_json(&questions::document_of_rare(&answer)),
             Format::Table => output::print(&text(&answer, self.show, console.stdout())),

@@ -80,14 +80,11 @@ impl Calibrate {
             predicted: self.predicted,
             ..Settings::default()
         };
-        let answered = ask(console, &self.answer, |workers| {
+        let (model, calibration) = ask(console, &self.answer, |workers| {
             let model = Model::new(observed, settings, workers)?;
             let calibration = Calibration::of(&model, workers)?;
             Ok::<_, CalibrationError>((model, calibration))
         })?;
-        let Some((model, calibration)) = answered else {
-            return Ok(Outcome::Interrupted);
-        };
         if let (Some(file), Some(path)) = (file, &self.posterior) {
             write(file, path, &model, &calibration)?;
         }

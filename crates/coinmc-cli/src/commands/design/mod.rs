@@ -108,9 +108,6 @@ impl DesignArgs {
         let designed = ask(console, &self.answer, |workers| {
             questions::design(&template, scene, overrides, &question, workers)
         })?;
-        let Some(designed) = designed else {
-            return Ok(Outcome::Interrupted);
-        };
         let paths = files.write(&designed)?;
         match console.format() {
             Format::Json => output::print_json(&document(&designed, &paths)),

@@ -131,10 +131,8 @@ impl Fair {
         let answered = ask(console, &self.answer, |workers| {
             self.answer(scene, &template, workers).map_err(by_option)
         })?;
-        match answered {
-            Some(answered) => self.present(&answered, console),
-            None => Ok(Outcome::Interrupted),
-        }
+        answered.other_size = other_size;
+        self.present(&answered, console)
     }
 
     fn template(&self) -> Result<(Option<EverydayScene>, Template), Failure> {

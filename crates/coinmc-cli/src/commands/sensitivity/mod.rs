@@ -119,9 +119,6 @@ impl SensitivityOf {
         let answer = ask(console, &self.answer, |workers| {
             self.find(&template, &unknowns, console, workers)
         })?;
-        let Some(answer) = answer else {
-            return Ok(Outcome::Interrupted);
-        };
         if let (Some(file), Some(svg)) = (picture, &answer.picture) {
             write_file(file, svg)?;
         }
