@@ -112,7 +112,9 @@ impl DesignArgs {
         match console.format() {
             Format::Json => output::print_json(&document(&designed, &paths)),
             Format::Table => {
-                output::print(&report::text(&designed, told, &paths, console.stdout()))
+                let infill = question.coin.infill;
+                let style = console.stdout();
+                output::print(&report::text(&designed, told, infill, &paths, style))
             }
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
