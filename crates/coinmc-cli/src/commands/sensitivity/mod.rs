@@ -9,7 +9,7 @@ use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use crate::terminal::decimals_that_show;
 use anyhow::anyhow;
-use clap::Args;
+use clap::{ArgGroup, Args};
 use coinmc_core::Face;
 use coinmc_questions::sensitivity::Steps;
 use coinmc_questions::{self as questions, Question, QuestionError, Rank, Root, Unknown};
@@ -34,6 +34,7 @@ Examples:
 /// ranges comes from each number.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
+#[command(group(ArgGroup::new("ranking").multiple(true).args(["rank", "over"])))]
 pub(crate) struct SensitivityOf {
     #[command(flatten)]
     scene: SceneArgs,
@@ -68,6 +69,7 @@ pub(crate) struct SensitivityOf {
 
     /// Samples of all ranges
     #[arg(long, value_name = "N", default_value = "500", value_parser = super::count)]
+    #[arg(requires = "ranking")]
     samples: u64,
 
     /// New file (.svg) for a tornado plot of the ranking
