@@ -232,4 +232,22 @@ mod tests {
         );
         assert!(!usual.contains("Short of"), "{usual}");
     }
+
+    #[test]
+    fn brute_force_is_no_number_where_every_toss_shows_the_face() {
+        let all = Interval {
+            // but for rounding
+            value: 1.0 - 1e-15,
+            lo: 0.95,
+            hi: 1.0,
+        };
+        let answer = Rareness {
+            p: all,
+            without_undecided: all,
+            ..answer(1.0, 0)
+        };
+        assert!(answer.gain().tosses.is_nan());
+        let text = text(&answer, false, &Style::plain(100));
+        assert!(!text.contains("Brute force"), "{text}");
+    }
 }
