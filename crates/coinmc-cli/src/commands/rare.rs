@@ -17,7 +17,7 @@ Examples:
 
 /// Estimate the probability of a rare face with fewer tosses
 ///
-/// Brute force takes some 400/P tosses for an error of 10 %. This draws as many launches, but tosses mostly those
+/// Brute force takes some 400/P tosses for an error of 10 %. This draws at least as many launches, but tosses mostly those
 /// whose first touch with the ground makes the face likely, and weights them so that the estimate is
 /// unbiased. Where the coin bounces high or rolls far, nothing is gained; the answer says how much was.
 #[derive(Debug, Args)]

@@ -20,7 +20,7 @@ const EXAMPLES: &str = "\
 Examples:
   coinmc calibrate examples/calibrate/thick-coin.toml
   coinmc calibrate my-coin.toml --posterior draws.parquet
-  coinmc calibrate my-coin.toml --set coin.ratio=1.2      … another coin on the same surface
+  coinmc calibrate my-coin.toml --set coin.ratio=1.2      … another coin (give counts their own `coin`)
   coinmc calibrate my-coin.toml --format json
 
 How to measure, and the tables of the config: docs/guide/calibrate.md.";

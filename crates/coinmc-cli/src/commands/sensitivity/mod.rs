@@ -55,7 +55,7 @@ pub(crate) struct SensitivityOf {
     #[arg(long, value_name = "N", value_parser = super::count)]
     tosses: Option<u64>,
 
-    /// Find the fair ratio first, and show how it moves: P(side) = 1/3
+    /// Find the fair ratio first, at which the face has P = 1/3, and show how it moves
     #[arg(long)]
     fair: bool,
 

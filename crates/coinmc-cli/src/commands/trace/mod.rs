@@ -90,7 +90,7 @@ pub(crate) struct Trace {
     limit: u64,
 
     /// Samples per second between events; 0 for events only
-    /// [default: 24 per turn and 20 per toppling time, rounded up to 1, 2 or 5]
+    /// [default: 24 per turn and 20 per toppling time, rounded up to 1, 2 or 5 times a power of ten]
     #[arg(long, value_name = "HZ")]
     rate: Option<f64>,
 
