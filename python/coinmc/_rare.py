@@ -30,7 +30,8 @@ class Rare:
         Tosses of the answer and of its pilot, and launches drawn for the answer.
     gain, gain_of_work : float
         How many times as many tosses brute force takes, and how many times the work (impacts, steps
-        in contact and one for each toss), the pilot included; NaN if the face was not seen.
+        in contact and one for each toss), the pilot included; NaN if the face was not seen,
+        or in all tosses.
     strata : dict of str to ndarray
         Launches that first touch the ground alike: |cos| of the angle between the axis and the
         vertical ``cos_from`` and ``cos_to``, ``launches``, the ``chance`` with which they were

@@ -5,6 +5,11 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
+#[cfg(target_os = "linux")]
+use std::{
+    thread,
+    time::{Duration, Instant},
+};
 
 const CONFIG: &str = "\
 [coin]
@@ -317,4 +322,67 @@ fn bad_input_exits_2_and_leaves_nothing_behind() {
         assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
     }
     assert_eq!(snapshot(dir.path()).len(), 2);
+}
+
+/// What `SigCgt` of a process says of SIGINT in `/proc`.
+#[cfg(target_os = "linux")]
+fn listens(id: u32) -> bool {
+    let status = fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+    let mask = caught.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask & 0b10 != 0)
+}
+
+/// What a question that takes far too long has printed after Ctrl-C.
+#[cfg(target_os = "linux")]
+fn interrupted(dir: &Path, arguments: &[&str]) -> Output {
+    let mut asking = command(dir);
+    asking.args(arguments);
+    asking.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let child = asking.spawn().expect("coinmc starts");
+    let start = Instant::now();
+    while !listens(child.id()) {
+        assert!(start.elapsed() < Duration::from_mins(1), "{arguments:?}");
+        thread::sleep(Duration::from_millis(10));
+    }
+    let signal = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(signal.expect("kill starts").success());
+    child.wait_with_output().expect("coinmc ends")
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_question_that_is_stopped_is_one_json_document() {
+    let one_point = CONFIG
+        .replace("{ from = 0.5, to = 2.0, steps = 4 }", "1.0")
+        .replace("[0.2, 0.6]", "0.5");
+    let dir = bench(&one_point);
+    for words in [
+        "fair toss.toml --half-width 1e-9 --max-tosses 1e12",
+        "sensitivity toss.toml --tosses 1e9",
+        "rare toss.toml --relative-error 1e-5 --max-tosses 1e12",
+        "aim toss.toml --over launch.height_m=0.1..1 --tosses 1e8",
+        "ask --ratio 1 --sure --tosses 1e9",
+        "validate --full --out validation",
+        "converge toss.toml --tosses 1e9",
+        "trace map toss.toml --set surface.restitution=0.99 --over wy_rad_s=0..60:100 --over height_m=1..9:100 -o map.html",
+    ] {
+        let words: Vec<&str> = words.split(' ').collect();
+        let json = [&words[..], &["--format", "json", "--quiet"]].concat();
+        let output = interrupted(dir.path(), &json);
+        assert_eq!(output.status.code(), Some(130), "{words:?}");
+        let document = document(&output);
+        assert_eq!(document["kind"], "error", "{words:?}");
+        assert_eq!(document["exit_code"], 130);
+        assert_eq!(
+            document["message"],
+            "stopped by Ctrl-C or SIGTERM before there was an answer"
+        );
+        let text = interrupted(dir.path(), &words);
+        assert_eq!(text.status.code(), Some(130), "{words:?}");
+        assert!(text.stdout.is_empty(), "{words:?}");
+    }
+    assert!(!dir.path().join("map.html").exists());
 }

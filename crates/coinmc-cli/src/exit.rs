@@ -22,7 +22,7 @@ pub(crate) enum Outcome {
     Done,
     /// `max_tosses` came before the targets at some point, or `--max-time` before the end.
     ShortOfTarget,
-    /// Ctrl-C or SIGTERM.
+    /// Ctrl-C or SIGTERM, with what there is so far as the result.
     Interrupted,
 }
 
@@ -41,7 +41,12 @@ pub(crate) enum Failure {
     Halted(anyhow::Error),
     /// The input was right, but reading, writing or computing failed.
     Runtime(anyhow::Error),
+    /// Ctrl-C or SIGTERM before there was anything to show.
+    Interrupted,
 }
+
+/// What a document says of [`Failure::Interrupted`]; people are told as the signal comes.
+const NO_ANSWER: &str = "stopped by Ctrl-C or SIGTERM before there was an answer";
 
 /// Exit codes; `arguments.rs` documents them for users.
 const DONE: u8 = 0;
@@ -200,6 +205,7 @@ impl Failure {
             Self::Input(error) | Self::Runtime(error) => words(error),
             #[cfg(feature = "robot")]
             Self::Halted(error) => words(error),
+            Self::Interrupted => NO_ANSWER.to_owned(),
         }
     }
 
@@ -211,6 +217,7 @@ impl Failure {
             Self::Runtime(_) => FAILED,
             #[cfg(feature = "robot")]
             Self::Halted(_) => HALTED,
+            Self::Interrupted => INTERRUPTED,
         }
     }
 
@@ -236,6 +243,7 @@ impl Failure {
             #[cfg(feature = "robot")]
             Self::Halted(error) => report_error(error, console),
             Self::Input(error) | Self::Runtime(error) => report_error(error, console),
+            Self::Interrupted => {}
         }
     }
 
@@ -265,17 +273,17 @@ impl Failure {
                 })).collect::<Vec<_>>(),
             }),
             #[cfg(feature = "robot")]
-            Self::Halted(error) => self.error_json(error),
-            Self::Input(error) | Self::Runtime(error) => self.error_json(error),
+            Self::Halted(_) => self.error_json(),
+            Self::Input(_) | Self::Runtime(_) | Self::Interrupted => self.error_json(),
         }
     }
 
-    fn error_json(&self, error: &anyhow::Error) -> Value {
+    fn error_json(&self) -> Value {
         json!({
             "format_version": output::FORMAT_VERSION,
             "kind": "error",
             "exit_code": self.code(),
-            "message": words(error),
+            "message": self.message(),
         })
     }
 }

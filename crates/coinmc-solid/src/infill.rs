@@ -26,6 +26,13 @@ pub struct Mass {
     pub transverse_kg_m2: f64,
 }
 
+impl Infill {
+    /// Whether its walls leave room for a core in a coin of this shape.
+    pub fn leaves_a_core(&self, shape: &Shape) -> bool {
+        self.walls_m < shape.radius_m() && 2.0 * self.walls_m < shape.thickness_m()
+    }
+}
+
 impl Shape {
     /// Mass and moments of inertia of a print of material of the density `density_kg_m3`; `None` prints
     /// it full.

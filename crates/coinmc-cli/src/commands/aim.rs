@@ -100,9 +100,6 @@ impl AimAt {
         let answer = ask(console, &self.answer, |workers| {
             questions::aim(&template, &question, workers)
         })?;
-        let Some(answer) = answer else {
-            return Ok(Outcome::Interrupted);
-        };
         if let Some(file) = picture {
             write_file(file, questions::picture(&answer))?;
         }

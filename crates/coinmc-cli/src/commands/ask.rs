@@ -115,9 +115,6 @@ impl Ask {
             let counts = ask(console, &self.answer, |workers| {
                 toss(&plan, self.tosses, workers)
             })?;
-            let Some(counts) = counts else {
-                return Ok(Outcome::Interrupted);
-            };
             answer.counts = Some(counts);
         }
         match console.format() {

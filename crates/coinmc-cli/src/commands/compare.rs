@@ -228,9 +228,12 @@ fn table(
     columns.extend(["P(heads)", "P(tails)"].map(|title| Column::right(title).droppable(1)));
     columns.push(Column::right("P(side)"));
     let any_without_face = has_any_without_face(answer);
-    if any_without_face {
-        columns.push(Column::right("no face"));
-    }
+    // of the tosses without a face it says of how many they are
+    columns.push(Column::right(if any_without_face {
+        "no face"
+    } else {
+        "tosses"
+    }));
     columns.push(Column::right("p-value"));
     columns.push(Column::right("evidence"));
     columns.push(Column::right("share").droppable(3));
@@ -240,7 +243,12 @@ fn table(
     let mut counted = vec!["counted".to_owned()];
     counted.extend(blank(axes.len()));
     counted.extend(answer.seen.iter().map(probability));
-    counted.extend(blank(4 + usize::from(any_without_face)));
+    counted.push(if any_without_face {
+        String::new()
+    } else {
+        grouped(answer.tosses())
+    });
+    counted.extend(blank(4));
     table.push(counted);
     for compared in &answer.models[..shown] {
         table.push(cells(compared, &axes, runs.len() > 1, any_without_face));
@@ -263,14 +271,12 @@ fn cells(compared: &Compared<'_>, axes: &[&str], named: bool, without_face: bool
     let mut cells = vec![name];
     cells.extend(axes.iter().map(parameter));
     cells.extend(Face::ALL.map(|face| probability(&compared.estimate(face))));
-    if without_face {
-        let all = compared.model.row.tally.tosses();
-        cells.push(format!(
-            "{} of {}",
-            grouped(compared.without_face()),
-            grouped(all)
-        ));
-    }
+    let all = grouped(compared.model.row.tally.tosses());
+    cells.push(if without_face {
+        format!("{} of {all}", grouped(compared.without_face()))
+    } else {
+        all
+    });
     cells.push(p_values(compared));
     cells.push(format!("{:+.1}", compared.evidence));
     cells.push(format!("{:.3}", compared.share));

@@ -71,9 +71,6 @@ impl Converge {
         let found = ask(console, &args, |workers| {
             questions::converge(&template, self.tosses, workers)
         })?;
-        let Some(found) = found else {
-            return Ok(Outcome::Interrupted);
-        };
         let document = || questions::document_of_convergence(&found);
         match self.format {
             RowsFormat::Json => output::print_json(&document()),

@@ -18,6 +18,7 @@ mod listen;
 mod merge;
 mod names;
 mod new_file;
+mod other_size;
 mod page;
 mod quantity;
 mod question;

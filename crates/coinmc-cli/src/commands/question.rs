@@ -167,12 +167,12 @@ impl From<DesignError> for Unanswered {
     }
 }
 
-/// Asks, with progress on standard error; `None` if Ctrl-C stopped it.
+/// Asks, with progress on standard error.
 pub(super) fn ask<T, E: Into<Unanswered>>(
     console: &Console,
     args: &AnswerArgs,
     question: impl FnOnce(&Workers<'_>) -> Result<T, E>,
-) -> Result<Option<T>, Failure> {
+) -> Result<T, Failure> {
     let progress = Progress::new(*console.stderr(), args.quiet);
     let told = progress.clone();
     let cancel =
@@ -186,11 +186,10 @@ pub(super) fn ask<T, E: Into<Unanswered>>(
         made: &|tosses| progress.tossed(made.fetch_add(tosses, Ordering::Relaxed) + tosses),
     });
     progress.finish();
-    match answer.map_err(Into::into) {
-        Ok(answer) => Ok(Some(answer)),
-        Err(Unanswered::Stopped) => Ok(None),
-        Err(Unanswered::Failed(failure)) => Err(failure),
-    }
+    answer.map_err(|error| match error.into() {
+        Unanswered::Stopped => Failure::Interrupted,
+        Unanswered::Failed(failure) => failure,
+    })
 }
 
 /// Writes a new file that was begun.

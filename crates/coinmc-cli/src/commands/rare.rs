@@ -17,7 +17,7 @@ Examples:
 
 /// Estimate the probability of a rare face with fewer tosses
 ///
-/// Brute force takes some 400/P tosses for an error of 10 %. This draws as many launches, but tosses mostly those
+/// Brute force takes some 400/P tosses for an error of 10 %. This draws at least as many launches, but tosses mostly those
 /// whose first touch with the ground makes the face likely, and weights them so that the estimate is
 /// unbiased. Where the coin bounces high or rolls far, nothing is gained; the answer says how much was.
 #[derive(Debug, Args)]
@@ -61,9 +61,6 @@ impl Rare {
         let answer = ask(console, &self.answer, |workers| {
             questions::how_rare(&template, &question, workers)
         })?;
-        let Some(answer) = answer else {
-            return Ok(Outcome::Interrupted);
-        };
         match console.format() {
             Format::Json => output::print_json(&questions::document_of_rare(&answer)),
             Format::Table => output::print(&text(&answer, self.show, console.stdout())),
@@ -234,5 +231,23 @@ mod tests {
             "{usual}"
         );
         assert!(!usual.contains("Short of"), "{usual}");
+    }
+
+    #[test]
+    fn brute_force_is_no_number_where_every_toss_shows_the_face() {
+        let all = Interval {
+            // but for rounding
+            value: 1.0 - 1e-15,
+            lo: 0.95,
+            hi: 1.0,
+        };
+        let answer = Rareness {
+            p: all,
+            without_undecided: all,
+            ..answer(1.0, 0)
+        };
+        assert!(answer.gain().tosses.is_nan());
+        let text = text(&answer, false, &Style::plain(100));
+        assert!(!text.contains("Brute force"), "{text}");
     }
 }

@@ -17,7 +17,8 @@ Examples:
 
 /// Show how far runs are
 ///
-/// A line for each run directory: finished, running, stopped or a complete part, with its points and tosses.
+/// A line for each run directory: finished, short of its targets, running, stopped or a complete part, with its
+/// points and tosses.
 /// Nothing in them is changed.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -87,18 +88,17 @@ impl Status {
 impl Row {
     fn new(run: &Path, runs: bool, report: &Report) -> Self {
         let rows = &report.results.rows;
-        let is_finished = matches!(
-            report.status,
-            Finished::Complete | Finished::ShortOfTarget { .. }
-        );
+        let is_finished = report.status == Finished::Complete;
+        let is_over = is_finished || matches!(report.status, Finished::ShortOfTarget { .. });
         let state = match (report.status, runs) {
-            (Finished::Complete | Finished::ShortOfTarget { .. }, _) => "finished",
+            (Finished::Complete, _) => "finished",
+            (Finished::ShortOfTarget { .. }, _) => "short_of_target",
             (Finished::Part, _) => "part",
             (Finished::Interrupted, true) => "running",
             (Finished::Interrupted, false) => "stopped",
         };
         let told = rows.each();
-        let told = told.filter(|row| is_finished || row.stopped_by.is_reached());
+        let told = told.filter(|row| is_over || row.stopped_by.is_reached());
         let widest = told.map(|row| row.half_width()).reduce(f64::max);
         Self {
             widest,
@@ -126,10 +126,10 @@ impl Row {
             ..
         } = self;
         let points = count(self.points as u64, "point");
-        let state = if *state == "part" {
-            "a complete part"
-        } else {
-            state
+        let state = match *state {
+            "part" => "a complete part",
+            "short_of_target" => "short of its targets",
+            state => state,
         };
         let mut line = format!("{}: {state}, ", self.run.display());
         if *points_done < self.points {
@@ -169,9 +169,16 @@ mod tests {
 
     /// A run directory with part 1 of so many.
     fn toss(out: &Path, parts: u32) {
-        let config = "coin.ratio = [1, 2]\nsurface = { restitution = 0.5, friction = 0 }\n\
-            launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 20000";
-        let plan = coinmc::config::parse("test", config, &[]).expect("a config");
+        toss_until(out, parts, "tosses = 20000");
+    }
+
+    /// The same until the stop rule says so.
+    fn toss_until(out: &Path, parts: u32, stop: &str) {
+        let config = format!(
+            "coin.ratio = [1, 2]\nsurface = {{ restitution = 0.5, friction = 0 }}\n\
+             launch.preset = 'robot'\nengine.flat = {{}}\nstop = {{ {stop} }}"
+        );
+        let plan = coinmc::config::parse("test", &config, &[]).expect("a config");
         let cancel = AtomicBool::new(false);
         let options = Options {
             out,
@@ -207,6 +214,20 @@ mod tests {
         let told = several(failures.into_iter()).message();
         assert!(told.contains("nothing is not a run directory"), "{told}");
         assert!(told.contains("neither is not a run directory"), "{told}");
+    }
+
+    #[test]
+    fn a_run_that_missed_its_targets_is_not_finished() {
+        let dir = tempfile::tempdir().expect("a directory");
+        let run = dir.path().join("short");
+        toss_until(&run, 1, "half_width = 0.01, max_tosses = 10");
+        let (rows, _) = rows(&[run]);
+        let line = rows[0].line();
+        assert!(
+            line.contains("short: short of its targets, 0 of 2 points, 20 tosses, widest"),
+            "{line}"
+        );
+        assert_eq!(rows[0].to_json()["state"], "short_of_target");
     }
 
     #[test]

@@ -143,12 +143,13 @@ impl Rareness {
     }
 
     /// What brute force takes for the same half width, but for undecided tosses, which it has as well, by what was
-    /// done, the pilot included: how many times fewer tosses, and less work, it took. NaN if the face was not seen.
+    /// done, the pilot included: how many times fewer tosses, and less work, it took. NaN if the face was not
+    /// seen, or in all tosses, which leaves nothing to estimate.
     pub fn gain(&self) -> Gain {
         let z = crate::interval::normal_quantile(self.confidence);
         let arm = self.without_undecided.half_width() / z;
         let brute_force = self.p.value * (1.0 - self.p.value) / (arm * arm);
-        let brute_force = if self.shown > 0 {
+        let brute_force = if self.shown > 0 && 1.0 - self.p.value > ROUNDING {
             brute_force
         } else {
             f64::NAN
@@ -159,6 +160,9 @@ impl Rareness {
         }
     }
 }
+
+/// A probability that is no farther from 1 is 1: that of a face of all tosses, whose weights were rounded.
+const ROUNDING: f64 = 1e-9;
 
 /// Whether the interval of a face that was seen is no wider than ± this share of its probability.
 fn is_short(p: &Interval, relative_error: f64) -> bool {

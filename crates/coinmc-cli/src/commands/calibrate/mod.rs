@@ -20,7 +20,7 @@ const EXAMPLES: &str = "\
 Examples:
   coinmc calibrate examples/calibrate/thick-coin.toml
   coinmc calibrate my-coin.toml --posterior draws.parquet
-  coinmc calibrate my-coin.toml --set coin.ratio=1.2      … another coin on the same surface
+  coinmc calibrate my-coin.toml --set coin.ratio=1.2      … another coin (give counts their own `coin`)
   coinmc calibrate my-coin.toml --format json
 
 How to measure, and the tables of the config: docs/guide/calibrate.md.";
@@ -80,14 +80,11 @@ impl Calibrate {
             predicted: self.predicted,
             ..Settings::default()
         };
-        let answered = ask(console, &self.answer, |workers| {
+        let (model, calibration) = ask(console, &self.answer, |workers| {
             let model = Model::new(observed, settings, workers)?;
             let calibration = Calibration::of(&model, workers)?;
             Ok::<_, CalibrationError>((model, calibration))
         })?;
-        let Some((model, calibration)) = answered else {
-            return Ok(Outcome::Interrupted);
-        };
         if let (Some(file), Some(path)) = (file, &self.posterior) {
             write(file, path, &model, &calibration)?;
         }

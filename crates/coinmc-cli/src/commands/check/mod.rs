@@ -61,11 +61,12 @@ pub(crate) struct Check {
 
     /// Plan jobs of at most 30 minutes for a cluster of so many nodes
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(conflicts_with = "defaults")]
     nodes: Option<u32>,
 
     /// Cores of a node
     #[arg(long, value_name = "C", default_value_t = 1, requires = "nodes",
-        value_parser = clap::value_parser!(u32).range(1..))]
+        value_parser = clap::value_parser!(u32).range(1..=1024))]
     cores: u32,
 
     /// Time limit of a job: 1h, 45min or 01:30:00

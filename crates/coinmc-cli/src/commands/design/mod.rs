@@ -108,14 +108,13 @@ impl DesignArgs {
         let designed = ask(console, &self.answer, |workers| {
             questions::design(&template, scene, overrides, &question, workers)
         })?;
-        let Some(designed) = designed else {
-            return Ok(Outcome::Interrupted);
-        };
         let paths = files.write(&designed)?;
         match console.format() {
             Format::Json => output::print_json(&document(&designed, &paths)),
             Format::Table => {
-                output::print(&report::text(&designed, told, &paths, console.stdout()))
+                let infill = question.coin.infill;
+                let style = console.stdout();
+                output::print(&report::text(&designed, told, infill, &paths, style))
             }
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;

@@ -1,15 +1,18 @@
 //! What was designed, as text.
 
+use super::super::other_size::OtherSize;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::with_interval;
 use crate::terminal::{Colors, Style, compact, decimals_that_show, grouped, in_ascii, wrapped};
 use coinmc_questions::{Designed, Root, TEST, THICKNESS_ERRORS_M};
+use coinmc_solid::{Infill, Shape};
 use std::path::PathBuf;
 
-/// The design as text. `told` is the diameter that the config gives, m.
+/// The design as text. `told` is the diameter that the config gives, m; `infill` was asked for.
 pub(super) fn text(
     designed: &Designed,
     told: Option<f64>,
+    infill: Option<Infill>,
     paths: &[PathBuf],
     style: &Style,
 ) -> String {
@@ -27,13 +30,18 @@ pub(super) fn text(
         compact((1e6 * mass.mass_kg).round() / 1e3)
     );
     let mut text = format!("{}\n", style.paint(Colors::Strong, &title));
-    text += &other_diameter(shape.diameter_m(), told);
+    let other = told.map(|told_m| OtherSize {
+        asked: "diameter",
+        told_m,
+    });
+    text += &other.map_or(String::new(), |other| other.remark(shape.diameter_m()));
     if let Some(scene) = designed.scene {
         let described = scene.described(&designed.overrides);
         let line = format!("for the scene {}: {described}", scene.name);
         text += &wrapped(&line, style.width, 0);
     }
     text += &shortcomings(root, designed.fair.question.half_width);
+    text += &infill.map_or(String::new(), |infill| solid(shape, infill));
     text += &faces(designed);
     let mut tolerance = Table::new(vec![
         Column::right("thickness off by"),
@@ -60,17 +68,15 @@ pub(super) fn text(
     if style.unicode { text } else { in_ascii(&text) }
 }
 
-/// That the config gives another diameter than the coin has.
-fn other_diameter(diameter_m: f64, told: Option<f64>) -> String {
-    match told {
-        Some(told) if (told / diameter_m - 1.0).abs() > 1e-9 => {
-            format!(
-                "(of the diameter asked for, not the config's {:.2} mm)\n",
-                1e3 * told
-            )
-        }
-        _ => String::new(),
+/// That walls are so thick that there is nothing to fill.
+fn solid(shape: &Shape, infill: Infill) -> String {
+    if infill.leaves_a_core(shape) {
+        return String::new();
     }
+    format!(
+        "the infill changes nothing: walls of {} mm leave no core in this coin\n",
+        compact(1e3 * infill.walls_m)
+    )
 }
 
 /// That the ratio is not known as well as asked for, and that tosses are undecided.
@@ -109,9 +115,10 @@ fn faces(designed: &Designed) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{other_diameter, shortcomings};
+    use super::{shortcomings, solid};
     use coinmc_core::Coin;
     use coinmc_questions::Root;
+    use coinmc_solid::{Edge, Infill, Shape};
 
     #[test]
     fn why_the_thickness_is_not_known_as_asked_is_told() {
@@ -146,9 +153,22 @@ mod tests {
     }
 
     #[test]
-    fn a_diameter_that_is_not_the_configs_is_told() {
-        assert_eq!(other_diameter(0.024, None), "");
-        assert_eq!(other_diameter(0.01, Some(2.0 * 0.005)), "");
-        assert!(other_diameter(0.024, Some(0.01)).contains("config's 10.00 mm"));
+    fn walls_that_leave_no_core_are_told() {
+        let shape = Shape::new(0.024, 0.012, Edge::Sharp).expect("a shape");
+        let of = |walls_m| {
+            let density_fraction = 0.2;
+            solid(
+                &shape,
+                Infill {
+                    walls_m,
+                    density_fraction,
+                },
+            )
+        };
+        assert_eq!(of(0.005), "");
+        assert_eq!(
+            of(0.006),
+            "the infill changes nothing: walls of 6 mm leave no core in this coin\n"
+        );
     }
 }

@@ -2,6 +2,7 @@
 
 mod report;
 
+use super::other_size::OtherSize;
 use super::quantity::{Density, Length, Mass, Volume};
 use super::question::{AnswerArgs, SceneArgs, Unanswered, ask};
 use crate::exit::{Failure, Outcome};
@@ -71,6 +72,7 @@ pub(crate) struct Fair {
 
     /// Tosses of each assumption of an everyday scene, which show its effect; 0 for none
     #[arg(long, value_name = "N", default_value = "1024", value_parser = super::count)]
+    #[arg(conflicts_with = "config")]
     assumptions: u64,
 
     /// Diameter of the coin, such as 24mm
@@ -121,6 +123,10 @@ struct Answered {
     answer: Answer,
     /// Effects of the scene's assumptions on its only root.
     effects: Vec<Effect>,
+    /// Whether they are left out because a sweep has several curves.
+    unweighed: bool,
+    /// What the command line gives in place of the config's diameter.
+    other_size: Option<OtherSize>,
 }
 
 impl Fair {
@@ -129,25 +135,39 @@ impl Fair {
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let (scene, template) = self.template()?;
-        let answered = ask(console, &self.answer, |workers| {
+        let (scene, template) = self.scene.template()?;
+        let other_size = self.other_size(scene, &template);
+        let template = self.sized(template)?;
+        let mut answered = ask(console, &self.answer, |workers| {
             self.answer(scene, &template, workers).map_err(by_option)
         })?;
-        match answered {
-            Some(answered) => self.present(&answered, console),
-            None => Ok(Outcome::Interrupted),
-        }
+        answered.other_size = other_size;
+        self.present(&answered, console)
     }
 
-    fn template(&self) -> Result<(Option<EverydayScene>, Template), Failure> {
-        let (scene, template) = self.scene.template()?;
+    /// The scene with coins of the size that the command line gives, if any.
+    fn sized(&self, template: Template) -> Result<Template, Failure> {
         let size = match (self.diameter, self.volume, self.mass, self.density) {
             (Some(Length(diameter)), ..) => Size::Diameter(diameter),
             (_, Some(Volume(volume)), ..) => Size::Volume(volume),
             (_, _, Some(Mass(mass)), Some(Density(density))) => Size::Volume(mass / density),
             _ => Size::OfConfig,
         };
-        Ok((scene, template.with_size(size)?))
+        Ok(template.with_size(size)?)
+    }
+
+    /// What the command line gives in place of the diameter of the config, if both give one.
+    fn other_size(&self, scene: Option<EverydayScene>, template: &Template) -> Option<OtherSize> {
+        let asked = match (self.diameter, self.volume, self.mass) {
+            (Some(_), ..) => "diameter",
+            (_, Some(_), _) => "volume",
+            (.., Some(_)) => "mass",
+            _ => return None,
+        };
+        // a config with several diameters, or with one that cannot be, is none of the answer's concern
+        let told = questions::diameter_told(template, scene, self.scene.overrides());
+        let told_m = told.ok().flatten()?;
+        Some(OtherSize { asked, told_m })
     }
 
     fn answer(
@@ -178,8 +198,10 @@ impl Fair {
         Ok(Answered {
             described: scene.map_or_else(String::new, |scene| scene.described(overrides)),
             scene,
+            unweighed: scene.is_some() && self.assumptions > 0 && answer.curves.len() > 1,
             answer,
             effects,
+            other_size: None,
         })
     }
 
@@ -238,9 +260,7 @@ mod tests {
 
     fn range(arguments: &[&str]) -> Result<Option<[f64; 2]>, QuestionError> {
         let Only { fair } = Only::parse_from(["coinmc"].iter().chain(arguments));
-        let Ok((_, template)) = fair.template() else {
-            panic!("a scene of its own");
-        };
+        let (_, template) = fair.scene.template().expect("a scene of its own");
         fair.range(&template)
     }
 

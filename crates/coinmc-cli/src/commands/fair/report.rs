@@ -1,5 +1,6 @@
 //! The answer as text.
 
+use super::super::other_size::OtherSize;
 use super::Answered;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{
@@ -17,6 +18,8 @@ pub(super) fn text(answered: &Answered, show: bool, style: &Style) -> String {
         described,
         answer,
         effects,
+        unweighed,
+        other_size,
     } = answered;
     let mut text = String::new();
     if let Some(scene) = scene {
@@ -33,10 +36,13 @@ pub(super) fn text(answered: &Answered, show: bool, style: &Style) -> String {
     );
     text += &format!("{}\n", style.paint(Colors::Strong, &title));
     for curve in &answer.curves {
-        text += &of_curve(answer, curve, show, style);
+        text += &of_curve(answer, curve, *other_size, show, style);
     }
     if !effects.is_empty() {
         text += &assumptions(effects, style);
+    }
+    if *unweighed {
+        text += "What it rests on is shown only where nothing is swept\n";
     }
     if style.unicode { text } else { in_ascii(&text) }
 }
@@ -54,7 +60,13 @@ fn target(p: f64) -> String {
     }
 }
 
-fn of_curve(answer: &Fair, curve: &Curve, show: bool, style: &Style) -> String {
+fn of_curve(
+    answer: &Fair,
+    curve: &Curve,
+    other_size: Option<OtherSize>,
+    show: bool,
+    style: &Style,
+) -> String {
     let mut text = String::new();
     if !curve.at.is_empty() {
         let at = curve
@@ -65,7 +77,7 @@ fn of_curve(answer: &Fair, curve: &Curve, show: bool, style: &Style) -> String {
     }
     for finding in &curve.findings {
         text += &match finding {
-            Finding::Root(root) => of_root(answer, root, style),
+            Finding::Root(root) => of_root(answer, root, style) + &of_size(root, other_size),
             Finding::Near { from, to } => format!(
                 "    none seen, but P comes too near to the target to tell {}\n",
                 stretch(*from, *to)
@@ -189,8 +201,19 @@ fn of_root(answer: &Fair, root: &Root, style: &Style) -> String {
             grouped(root.undecided)
         );
     }
-    let of_ratio = answer.question.key == "coin.ratio";
-    text + &size(&root.coin, of_ratio.then_some(arm))
+    text + &size(&root.coin, &answer.question.key, arm)
+}
+
+/// That the coin has not the config's diameter.
+fn of_size(root: &Root, other_size: Option<OtherSize>) -> String {
+    let remark = other_size.map_or(String::new(), |other| {
+        other.remark(2.0 * root.coin.radius_m())
+    });
+    if remark.is_empty() {
+        remark
+    } else {
+        format!("    {remark}")
+    }
 }
 
 fn slope(key: &str, root: &Root) -> String {
@@ -207,16 +230,40 @@ fn slope(key: &str, root: &Root) -> String {
     format!("    dP/d({key}) = {:.decimals$}{error}\n", root.slope)
 }
 
-/// `a coin of 23.25 mm is 11.5 ± 0.06 mm thick`.
-fn size(coin: &Coin, arm: Option<f64>) -> String {
-    let (diameter, thickness) = (2e3 * coin.radius_m(), 1e3 * coin.height_m());
-    let error = arm.map(|arm| 1e3 * arm * coin.radius_m());
-    let error = error.filter(|error| *error > 0.0 && *error < thickness);
-    let decimals = decimals_that_show(error.unwrap_or(0.0), 2);
-    let error = error.map_or(String::new(), |error| format!(" ± {error:.decimals$}"));
-    format!(
-        "    a coin {diameter:.2} mm in diameter is then {thickness:.decimals$}{error} mm thick\n"
-    )
+/// `a coin 23.25 mm in diameter is then 11.5 ± 0.06 mm thick`, if the parameter under this key is known to ± `arm`.
+fn size(coin: &Coin, key: &str, arm: f64) -> String {
+    let [diameter_error, thickness_error] = size_errors(coin, key, arm);
+    let diameter = length(2.0 * coin.radius_m(), diameter_error);
+    let thickness = length(coin.height_m(), thickness_error);
+    format!("    a coin {diameter} mm in diameter is then {thickness} mm thick\n")
+}
+
+/// Errors of diameter and thickness, m, where the parameter is a length of the coin; else 0.
+fn size_errors(coin: &Coin, key: &str, arm: f64) -> [f64; 2] {
+    let key = key.strip_prefix("coin.").unwrap_or("");
+    let unit = |keys: [(&str, f64); 4]| {
+        keys.iter()
+            .find(|(name, _)| *name == key)
+            .map(|(_, unit)| *unit)
+    };
+    if key == "ratio" {
+        return [0.0, arm * coin.radius_m()];
+    }
+    match (unit(Coin::RADII), unit(Coin::HEIGHTS)) {
+        (Some(radius_m), _) => [2.0 * arm * radius_m, 0.0],
+        (_, Some(height_m)) => [0.0, arm * height_m],
+        _ => [0.0, 0.0],
+    }
+}
+
+/// A length in mm, with its error if there is one that tells anything.
+fn length(metres: f64, error_m: f64) -> String {
+    let (length, error) = (1e3 * metres, 1e3 * error_m);
+    if !(error > 0.0 && error < length) {
+        return format!("{length:.2}");
+    }
+    let decimals = decimals_that_show(error, 2);
+    format!("{length:.decimals$} ± {error:.decimals$}")
 }
 
 /// How the search went.
@@ -307,7 +354,7 @@ mod tests {
     #[test]
     fn a_thickness_that_is_known_well_has_digits_for_its_error() {
         let coin = Coin::cylinder(0.918_345, 0.012).expect("a coin");
-        let shown = |arm| size(&coin, Some(arm));
+        let shown = |arm| size(&coin, "coin.ratio", arm);
         assert!(
             shown(0.003).contains("11.02 ± 0.04 mm thick"),
             "{}",
@@ -320,6 +367,31 @@ mod tests {
         );
         assert!(shown(0.0).contains("then 11.02 mm"), "{}", shown(0.0));
         assert_eq!(error_shown(0.004), "± 0.004");
+    }
+
+    #[test]
+    fn a_length_that_was_searched_keeps_its_error() {
+        let coin = Coin::cylinder(1.6681, 0.01).expect("a coin");
+        let shown = |key, arm| size(&coin, key, arm);
+        for (key, arm) in [
+            ("coin.height_mm", 0.095),
+            ("coin.thickness_m", 95e-6),
+            ("coin.ratio", 0.0095),
+        ] {
+            let text = shown(key, arm);
+            assert!(
+                text.contains("20.00 mm in diameter is then 16.68 ± 0.10 mm thick")
+                    || text.contains("16.68 ± 0.09 mm thick"),
+                "{key}: {text}"
+            );
+        }
+        let wide = shown("coin.diameter_mm", 0.25);
+        assert!(
+            wide.contains("a coin 20.00 ± 0.25 mm in diameter"),
+            "{wide}"
+        );
+        let other = shown("launch.height_m", 0.25);
+        assert!(!other.contains('±'), "{other}");
     }
 
     #[test]

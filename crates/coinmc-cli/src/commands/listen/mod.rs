@@ -119,9 +119,6 @@ impl Listen {
             let answered = ask(console, &answer, |workers| {
                 Told::of(&heard, observed, effort, workers)
             })?;
-            let Some(answered) = answered else {
-                return Ok(Outcome::Interrupted);
-            };
             told = Some((answered, observed));
         }
         let told = told.as_ref().map(|(told, observed)| (told, *observed));

@@ -49,6 +49,7 @@ impl Local {
             columns.push(Column::left("interval"));
         } else {
             columns.push(Column::right("elasticity"));
+            columns.push(Column::left("interval"));
         }
         columns.push(Column::right("changed").droppable(1));
         let any_undecided = self.sensitivities.iter().any(|one| most_undecided(one) > 0);
@@ -62,7 +63,7 @@ impl Local {
             cells.extend(shown(derivative));
             match &self.fair.root {
                 Some(root) => cells.extend(shown(one.shift(self.face, root))),
-                None => cells.push(signed(one.elasticity(self.face).value, 2)),
+                None => cells.extend(shown(one.elasticity(self.face))),
             }
             cells.push(format!("{:.1} %", 100.0 * one.changed));
             if any_undecided {

@@ -9,7 +9,7 @@ use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use crate::terminal::decimals_that_show;
 use anyhow::anyhow;
-use clap::Args;
+use clap::{ArgGroup, Args};
 use coinmc_core::Face;
 use coinmc_questions::sensitivity::Steps;
 use coinmc_questions::{self as questions, Question, QuestionError, Rank, Root, Unknown};
@@ -34,6 +34,7 @@ Examples:
 /// ranges comes from each number.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
+#[command(group(ArgGroup::new("ranking").multiple(true).args(["rank", "over"])))]
 pub(crate) struct SensitivityOf {
     #[command(flatten)]
     scene: SceneArgs,
@@ -54,7 +55,7 @@ pub(crate) struct SensitivityOf {
     #[arg(long, value_name = "N", value_parser = super::count)]
     tosses: Option<u64>,
 
-    /// Find the fair ratio first, and show how it moves: P(side) = 1/3
+    /// Find the fair ratio first, at which the face has P = 1/3, and show how it moves
     #[arg(long)]
     fair: bool,
 
@@ -68,6 +69,7 @@ pub(crate) struct SensitivityOf {
 
     /// Samples of all ranges
     #[arg(long, value_name = "N", default_value = "500", value_parser = super::count)]
+    #[arg(requires = "ranking")]
     samples: u64,
 
     /// New file (.svg) for a tornado plot of the ranking
@@ -119,9 +121,6 @@ impl SensitivityOf {
         let answer = ask(console, &self.answer, |workers| {
             self.find(&template, &unknowns, console, workers)
         })?;
-        let Some(answer) = answer else {
-            return Ok(Outcome::Interrupted);
-        };
         if let (Some(file), Some(svg)) = (picture, &answer.picture) {
             write_file(file, svg)?;
         }

@@ -74,6 +74,11 @@ impl Files {
     }
 }
 
+/// Whether the name of a file is that of an MCAP file.
+pub(super) fn is_mcap(path: &Path) -> bool {
+    matches!(kind(path), Ok(Kind::Trace(FileKind::Mcap)))
+}
+
 fn kind(path: &Path) -> Result<Kind, Failure> {
     let ending = path.extension().and_then(|ending| ending.to_str());
     if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("html")) {

@@ -116,7 +116,7 @@ impl MapOf {
         progress.finish();
         let made = made.map_err(|error: MapError| Failure::Input(error.into()))?;
         let Some(made) = made else {
-            return Ok(Outcome::Interrupted);
+            return Err(Failure::Interrupted);
         };
         write_file(file, map(&plan, &made))?;
         self.tell(pixels, console)

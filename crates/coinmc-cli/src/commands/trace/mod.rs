@@ -90,7 +90,7 @@ pub(crate) struct Trace {
     limit: u64,
 
     /// Samples per second between events; 0 for events only
-    /// [default: 24 per turn and 20 per toppling time, rounded up to 1, 2 or 5]
+    /// [default: 24 per turn and 20 per toppling time, rounded up to 1, 2 or 5 times a power of ten]
     #[arg(long, value_name = "HZ")]
     rate: Option<f64>,
 
@@ -106,13 +106,13 @@ pub(crate) struct Trace {
     #[arg(long, requires = "show")]
     all: bool,
 
-    /// Encoding of the messages in .mcap files: protobuf or json
-    #[arg(long, value_name = "HOW", default_value_t)]
-    encoding: Encoding,
+    /// Encoding of the messages in .mcap files: protobuf or json [default: protobuf]
+    #[arg(long, value_name = "HOW")]
+    encoding: Option<Encoding>,
 
-    /// Compression of .mcap files: none or lz4
-    #[arg(long, value_name = "HOW", default_value_t = Compression::None)]
-    compression: Compression,
+    /// Compression of .mcap files: none or lz4 [default: none]
+    #[arg(long, value_name = "HOW")]
+    compression: Option<Compression>,
 
     /// Replace or add a value of the config, as in `surface.friction=0.2`; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
@@ -168,6 +168,7 @@ impl Trace {
             let both = anyhow!("--show prints text and --format json prints JSON: choose one");
             return Err(Failure::Input(both));
         }
+        self.check_options_of_mcap()?;
         let plan = plan_of(config, &self.overrides)?;
         let progress = Progress::new(*console.stderr(), self.quiet);
         if !self.quiet {
@@ -190,9 +191,31 @@ impl Trace {
         let files = if traces.is_empty() || selected.status == Status::Interrupted {
             Vec::new()
         } else {
-            files.write(&plan, &traces, self.encoding, self.compression)?
+            let encoding = self.encoding.unwrap_or_default();
+            let compression = self.compression.unwrap_or(Compression::None);
+            files.write(&plan, &traces, encoding, compression)?
         };
         report::present(self, &plan, &selected, &traces, &files, console)
+    }
+
+    /// That there is a file that the options of MCAP are about.
+    fn check_options_of_mcap(&self) -> Result<(), Failure> {
+        if self.outs.iter().any(|out| files::is_mcap(out)) {
+            return Ok(());
+        }
+        let given = [
+            self.encoding.map(|_| "--encoding"),
+            self.compression.map(|_| "--compression"),
+        ];
+        let given: Vec<&str> = given.into_iter().flatten().collect();
+        if given.is_empty() {
+            return Ok(());
+        }
+        let of = if given.len() == 1 { "is" } else { "are" };
+        Err(Failure::Input(anyhow!(
+            "{} {of} of .mcap files: add one, as in `-o tosses.mcap`",
+            given.join(" and ")
+        )))
     }
 
     /// Greatest number of tosses that will be traced.

@@ -106,17 +106,15 @@ impl Validate {
                 build: coinmc_build::BUILD,
             };
             validation::validate(&options, workers)
-        })?;
-        let Some(found) = found else {
-            if let Some(out) = out.filter(|_| !self.answer.quiet) {
-                output::note(&format!(
-                    "coinmc: stopped; all finished tosses are kept in {}.\nGo on with: {}",
-                    out.display(),
-                    this_command()
-                ));
-            }
-            return Ok(Outcome::Interrupted);
-        };
+        });
+        if let (Err(Failure::Interrupted), Some(out), false) = (&found, out, self.answer.quiet) {
+            output::note(&format!(
+                "coinmc: stopped; all finished tosses are kept in {}.\nGo on with: {}",
+                out.display(),
+                this_command()
+            ));
+        }
+        let found = found?;
         let document = validation::document(&found);
         if let Some(page) = page {
             page.write(&coinmc_report::claims(&document))?;
