@@ -17,19 +17,19 @@ pub(super) struct Source {
     pub(super) name: Arc<str>,
     pub(super) text: Arc<str>,
     /// Where to show what is wrong with it, if not in the text itself.
-    typed: Option<Typed>,
+    made_of: Option<MadeOf>,
 }
 
 /// The words of a user of which a program made the text of a source, `key=value`.
 #[derive(Debug, Clone)]
-struct Typed {
+struct MadeOf {
     /// The source of those words.
-    source: usize,
+    words: usize,
     /// The key in the text.
     key: Range<usize>,
     /// Where those words have the key, if they do, and what else they say.
-    typed_key: Option<usize>,
-    value: Range<usize>,
+    key_in_words: Option<usize>,
+    value_in_words: Range<usize>,
 }
 
 /// The config file and, after it, every override.
@@ -42,7 +42,7 @@ impl Sources {
         self.0.push(Source {
             name: name.into(),
             text: text.into(),
-            typed: None,
+            made_of: None,
         });
         self.0.len() - 1
     }
@@ -57,30 +57,30 @@ impl Sources {
         let key = text[..equals].trim();
         let start = text.len() - text.trim_start().len();
         let value = words.find('=').map_or(0, |equals| equals + 1);
-        let typed = Typed {
-            source: self.add(name, words),
+        let made_of = MadeOf {
+            words: self.add(name, words),
             key: start..start + key.len(),
-            typed_key: words.find(key),
-            value: value..words.len(),
+            key_in_words: words.find(key),
+            value_in_words: value..words.len(),
         };
         let source = self.add(name, text);
-        self.0[source].typed = Some(typed);
+        self.0[source].made_of = Some(made_of);
         source
     }
 
     /// Where to show what is wrong at this place: in the words of the user.
     pub(super) fn shown(&self, span: Span) -> Span {
-        let Some(typed) = &self.get(span).typed else {
+        let Some(made_of) = &self.get(span).made_of else {
             return span;
         };
-        let range = match typed.typed_key {
-            Some(start) if span.end <= typed.key.end => {
-                let shift = |index: usize| start + index.saturating_sub(typed.key.start);
+        let range = match made_of.key_in_words {
+            Some(start) if span.end <= made_of.key.end => {
+                let shift = |index: usize| start + index.saturating_sub(made_of.key.start);
                 shift(span.start)..shift(span.end)
             }
-            _ => typed.value.clone(),
+            _ => made_of.value_in_words.clone(),
         };
-        self.span(typed.source, range)
+        self.span(made_of.words, range)
     }
 
     pub(super) fn get(&self, span: Span) -> &Source {

@@ -17,26 +17,29 @@ pub(super) struct Mistake {
 /// An error of the parser: where, and what.
 pub(super) type ParseError = (Range<usize>, String);
 
-/// The errors in a text, of which a parser found these: it leaves off at a line without a value, so what follows that
-/// line is read without it.
+/// The errors in a text, of which a parser found these, some of them twice: it does not read values behind a line
+/// without a value, so the text is read again without such lines.
 pub(super) fn all_errors(text: &str, mut errors: Vec<ParseError>) -> Vec<ParseError> {
     let mut rest = text.to_owned();
+    let mut read = 0;
     for _ in 0..MOST {
-        let leaves_off = |error: &&ParseError| is_unfinished_line(&error.1);
-        let Some((range, _)) = errors.iter().rev().find(leaves_off) else {
-            break;
-        };
-        let line = line_at(text, range.start);
-        rest.replace_range(line.clone(), &" ".repeat(line.len()));
-        let (_, more) = DeTable::parse_recoverable(&rest);
-        let known = errors.len();
-        errors.extend(more.iter().filter_map(|error| {
-            let range = error.span().filter(|range| range.start > line.end)?;
-            Some((range, error.message().to_owned()))
-        }));
-        if !errors[known..].iter().any(|error| leaves_off(&error)) {
+        let unfinished = errors[read..].iter();
+        let unfinished = unfinished.filter(|(_, message)| is_unfinished_line(message));
+        let lines: Vec<_> = unfinished
+            .map(|(range, _)| line_at(text, range.start))
+            .collect();
+        if lines.is_empty() {
             break;
         }
+        for line in lines {
+            rest.replace_range(line.clone(), &" ".repeat(line.len()));
+        }
+        read = errors.len();
+        let (_, more) = DeTable::parse_recoverable(&rest);
+        errors.extend(
+            more.iter()
+                .filter_map(|error| Some((error.span()?, error.message().to_owned()))),
+        );
     }
     errors
 }
@@ -255,6 +258,7 @@ mod tests {
             .iter()
             .map(|(range, _)| text[..range.start].matches('\n').count());
         let mut lines: Vec<usize> = lines.collect();
+        lines.sort_unstable();
         lines.dedup();
         assert_eq!(lines, [0, 1, 2, 3, 4]);
     }

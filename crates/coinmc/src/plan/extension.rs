@@ -101,9 +101,10 @@ impl Extension {
             Some(places) if are_moved(&places) && !new.paired => Err(Obstacle::Moved(others)),
             Some(places) => Ok(places),
         };
-        let stops = match asks_for_more(&old.stop, &new.stop) {
-            true => Ok(()),
-            false => Err(Obstacle::Less(stop)),
+        let stops = if asks_for_more(&old.stop, &new.stop) {
+            Ok(())
+        } else {
+            Err(Obstacle::Less(stop))
         };
         match (places, stops) {
             (Ok(places), Ok(())) => Ok(Self { places, changes }),
