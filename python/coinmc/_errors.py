@@ -20,7 +20,7 @@ class Problem(NamedTuple):
     Attributes
     ----------
     source : str
-        The file, or ``--set`` for an override.
+        The file, ``--set`` for an override, or the argument that asked for the value.
     line, column : int
         Location, counted from 1; 0 if the problem is not at any place in the text.
     message : str

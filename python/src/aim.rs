@@ -28,7 +28,10 @@ pub(crate) fn aim(
     asked: AskedAim,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
-    let (_, template) = question::template(&asked.source, &asked.overrides)?;
+    let (_, mut template) = question::template(&asked.source, &asked.overrides)?;
+    for (key, ..) in &asked.over {
+        template = template.with_typed(key, "over", key);
+    }
     let parameters = asked.over.into_iter();
     let question = Aim {
         face: question::face(&asked.face)?,

@@ -39,7 +39,9 @@ impl Asked {
             (None, None) => Size::OfConfig,
         };
         let template = template.with_size(size);
-        Ok((scene, template.map_err(|error| errors::question(&error))?))
+        let template = template.map_err(|error| errors::question(&error))?;
+        let key = &self.parameter;
+        Ok((scene, template.with_typed(key, "parameter", key)))
     }
 
     fn question(&self) -> PyResult<Question> {

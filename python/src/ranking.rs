@@ -29,7 +29,10 @@ pub(crate) fn rank(
     asked: AskedRank,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
-    let (scene, template) = question::template(&asked.source, &asked.overrides)?;
+    let (scene, mut template) = question::template(&asked.source, &asked.overrides)?;
+    for (key, ..) in asked.over.iter().flatten() {
+        template = template.with_typed(key, "over", key);
+    }
     let unknowns = match (asked.over, scene) {
         (Some(over), _) => {
             let unknown = |(key, from, to)| Unknown { key, from, to };

@@ -9,9 +9,10 @@ use crate::commands::{
 #[cfg(feature = "film")]
 use crate::commands::{Calibrate, Film, Listen};
 use crate::exit::{Failure, Outcome};
+use crate::negative::{with_negative_numbers, with_quantities_joined};
 use crate::output::{Console, Format};
 use clap::error::ContextKind;
-use clap::{Arg, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::error::Error as _;
 use std::ffi::OsString;
 use std::num::{ParseFloatError, ParseIntError};
@@ -85,18 +86,6 @@ enum Command {
     Completions(Completions),
 }
 
-/// The same command, whose options take negative numbers as their values: the option then says its own range, where
-/// clap would know no argument `-1`.
-fn with_negative_numbers(command: clap::Command) -> clap::Command {
-    let takes_values = |arg: &Arg| arg.get_action().takes_values() && !arg.is_positional();
-    command
-        .mut_args(|arg| {
-            let takes = takes_values(&arg);
-            arg.allow_negative_numbers(takes)
-        })
-        .mut_subcommands(with_negative_numbers)
-}
-
 /// The same error, in plain words where a value is no number or out of its range.
 fn in_plain_words(error: clap::Error) -> clap::Error {
     let value = error.get(ContextKind::InvalidValue);
@@ -132,6 +121,7 @@ impl Arguments {
     /// Reads the words of a command line.
     pub(crate) fn read(words: &[OsString]) -> Result<Self, clap::Error> {
         let mut command = with_negative_numbers(Self::command());
+        let words = with_quantities_joined(&command, words);
         let matches = command.try_get_matches_from_mut(words);
         let matches = matches.map_err(in_plain_words)?;
         Self::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
@@ -300,6 +290,25 @@ mod tests {
         assert!(
             time.contains("'-5' for '--max-time <TIME>': expected a time"),
             "{time}"
+        );
+        for words in [
+            "fair --diameter -30mm",
+            "fair --mass -.5g --density 1g/cm3",
+            "design --rim -1mm",
+            "ask --thickness -2mm",
+        ] {
+            let told = refused(&format!("coinmc {words}"));
+            assert!(
+                told.contains("expected a number above 0 and a unit"),
+                "{told}"
+            );
+        }
+        let time = refused("coinmc run a.toml --max-time -5s");
+        assert!(time.contains("expected a time such as"), "{time}");
+        let missing = refused("coinmc fair --diameter --threads 2");
+        assert!(
+            missing.contains("a value is required for '--diameter"),
+            "{missing}"
         );
         let threads = refused("coinmc fair --threads -1");
         assert!(

@@ -115,6 +115,7 @@ impl From<QuestionError> for Failure {
         match error {
             QuestionError::Config(diagnostics) => Self::Config(diagnostics),
             QuestionError::Run(error) => error.into(),
+            QuestionError::Several(errors) => several(errors.into_iter().map(Self::from)),
             QuestionError::Thread(_) => Self::Runtime(error.into()),
             _ => Self::Input(error.into()),
         }

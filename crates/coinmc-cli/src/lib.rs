@@ -12,6 +12,7 @@ mod command_line;
 mod commands;
 mod exit;
 mod interrupt;
+mod negative;
 mod output;
 mod terminal;
 mod time_limit;

@@ -8,6 +8,9 @@ use thiserror::Error;
 /// Why a question has no answer.
 #[derive(Debug, Error)]
 pub enum QuestionError {
+    /// Several things are wrong at once.
+    #[error("{}", joined(.0))]
+    Several(Vec<QuestionError>),
     /// The key of the parameter is none.
     #[error(transparent)]
     Key(OverrideError),
@@ -95,11 +98,11 @@ pub enum QuestionError {
         /// Those asked for.
         given: u64,
     },
-    /// A parameter that cannot be varied.
-    #[error("`{key}` is not a number of this config that can be varied; choose from {known}")]
+    /// Parameters that cannot be varied.
+    #[error("{}; choose from {known}", not_varied(keys))]
     NotVaried {
-        /// Its key.
-        key: String,
+        /// Their keys, each with the nearest of those that can be.
+        keys: Vec<(String, Option<String>)>,
         /// The keys that can be.
         known: String,
     },
@@ -148,7 +151,7 @@ pub enum QuestionError {
     #[error("nothing of the launch is spread, so there is no spread to multiply")]
     NoSpread,
     /// The config refuses the spread of a clumsier hand.
-    #[error("with {factor:?} times the spread of the hand the config has problems:\n{problems}")]
+    #[error("with {factor} times the spread of the hand, {}", said(problems))]
     Clumsy {
         /// The factor.
         factor: f64,
@@ -176,6 +179,39 @@ pub enum QuestionError {
         /// All names.
         known: String,
     },
+}
+
+impl QuestionError {
+    /// All of these as one error, if there are any.
+    pub(crate) fn of_all(mut errors: Vec<Self>) -> Option<Self> {
+        match errors.len() {
+            0 | 1 => errors.pop(),
+            _ => Some(Self::Several(errors)),
+        }
+    }
+}
+
+fn not_varied(keys: &[(String, Option<String>)]) -> String {
+    let keys: Vec<String> = keys
+        .iter()
+        .map(|(key, near)| match near {
+            Some(near) => format!("`{key}` (did you mean `{near}`?)"),
+            None => format!("`{key}`"),
+        })
+        .collect();
+    let are = match keys.len() {
+        1 => "is not a number",
+        _ => "are not numbers",
+    };
+    format!(
+        "{} {are} of this config that can be varied",
+        keys.join(", ")
+    )
+}
+
+fn joined(errors: &[QuestionError]) -> String {
+    let messages: Vec<String> = errors.iter().map(ToString::to_string).collect();
+    messages.join("\n")
 }
 
 /// The messages of problems, without their places.

@@ -156,14 +156,15 @@ impl EverydayScene {
 
     /// In words, with what `overrides` change of it.
     pub fn described(&self, overrides: &[Override]) -> String {
-        let mut text = format!(
-            "{}; a coin of metal, tossed by hand from {:?} m above it",
+        let changes = if overrides.is_empty() {
+            String::new()
+        } else {
+            format!("; but with {}", changed(overrides))
+        };
+        format!(
+            "{}; a coin of metal, tossed by hand from {:?} m above it{changes}",
             self.doc, self.height_m
-        );
-        if !overrides.is_empty() {
-            text += &format!("; but with {}", changed(overrides));
-        }
-        text
+        )
     }
 
     /// What it assumes and `overrides` do not say otherwise, by whatever key: what is left of its own numbers in

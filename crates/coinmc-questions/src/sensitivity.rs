@@ -18,6 +18,7 @@
 use crate::interval::normal_quantile;
 use crate::workers::{At, Changes};
 use crate::{Interval, QuestionError, Root, Template, Workers};
+use coinmc::config::nearest;
 use coinmc::plan::Plan;
 use coinmc_core::Face;
 use toml::de::{DeTable, DeValue};
@@ -247,32 +248,57 @@ fn at_first_point(plans: &[Plan; 2]) -> [At<'_>; 2] {
     plans.each_ref().map(|plan| At { plan, point: 0 })
 }
 
-/// The parameters to vary, once the steps have been checked.
+/// The parameters to vary, or everything that is wrong with the steps.
 fn chosen(template: &Template, steps: &Steps) -> Result<Vec<Parameter>, QuestionError> {
+    let mut refused = vec![];
     if !(steps.step > 0.0 && steps.step <= 1.0) {
-        return Err(QuestionError::Step(steps.step));
+        refused.push(QuestionError::Step(steps.step));
     }
     if steps.tosses < LEAST_TOSSES {
-        return Err(QuestionError::TooFewTosses {
+        refused.push(QuestionError::TooFewTosses {
             least: LEAST_TOSSES,
             given: steps.tosses,
         });
     }
     let all = parameters(template)?;
-    if steps.keys.is_empty() {
-        return Ok(all);
-    }
-    let pick = |key: &String| {
-        let found = all.iter().find(|parameter| parameter.key == *key);
-        found.cloned().ok_or_else(|| {
-            let known: Vec<&str> = all.iter().map(|known| known.key.as_str()).collect();
-            QuestionError::NotVaried {
-                key: key.clone(),
-                known: known.join(", "),
-            }
+    let chosen = if steps.keys.is_empty() {
+        all
+    } else {
+        picked(&all, &steps.keys).unwrap_or_else(|error| {
+            refused.push(error);
+            vec![]
         })
     };
-    steps.keys.iter().map(pick).collect()
+    QuestionError::of_all(refused).map_or(Ok(chosen), Err)
+}
+
+/// The parameters of these keys.
+fn picked(all: &[Parameter], keys: &[String]) -> Result<Vec<Parameter>, QuestionError> {
+    let (mut found, mut unknown) = (vec![], vec![]);
+    for key in keys {
+        match all.iter().find(|parameter| parameter.key == *key) {
+            Some(parameter) => found.push(parameter.clone()),
+            None => unknown.push(key.as_str()),
+        }
+    }
+    if unknown.is_empty() {
+        Ok(found)
+    } else {
+        Err(not_varied(all, &unknown))
+    }
+}
+
+/// That none of these parameters has one of these keys.
+pub(crate) fn not_varied(all: &[Parameter], keys: &[&str]) -> QuestionError {
+    let known = || all.iter().map(|known| known.key.as_str());
+    let near = |key| nearest(key, known()).map(str::to_owned);
+    QuestionError::NotVaried {
+        keys: keys
+            .iter()
+            .map(|key| ((*key).to_owned(), near(key)))
+            .collect(),
+        known: known().collect::<Vec<_>>().join(", "),
+    }
 }
 
 fn sensitivity(moved: Moved, changes: &Changes, step: f64) -> Sensitivity {

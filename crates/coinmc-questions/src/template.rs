@@ -8,6 +8,9 @@ use std::f64::consts::PI;
 use std::fmt;
 use std::sync::Arc;
 
+/// Where a number comes from, in messages, that nobody typed anywhere.
+const QUESTION: &str = "question";
+
 /// Numbers of `[coin]`, by key.
 pub type CoinNumbers = Vec<(&'static str, f64)>;
 /// What else a coin of this ratio and radius has.
@@ -21,8 +24,17 @@ pub struct Template {
     text: String,
     overrides: Vec<Override>,
     values: Vec<(String, f64)>,
+    typed: Vec<Typed>,
     size: Size,
     make: Option<Make>,
+}
+
+/// Where a user asked for the number under a key.
+#[derive(Debug, Clone)]
+struct Typed {
+    key: String,
+    name: String,
+    words: String,
 }
 
 impl fmt::Debug for Template {
@@ -80,6 +92,7 @@ impl Template {
             text: text.into(),
             overrides: overrides.to_vec(),
             values: vec![],
+            typed: vec![],
             size: Size::OfConfig,
             make: None,
         }
@@ -101,6 +114,46 @@ impl Template {
         self
     }
 
+    /// The same, whose messages about the number that a question puts under this key name where the user asked for it,
+    /// such as `--vary`, and quote what was typed there. Without this they name the question and quote the key.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_questions::Template;
+    /// let text = "coin.ratio = 1\nsurface.material = 'wood'\nlaunch.preset = 'hand'\nengine.volumetric = {}";
+    /// let template = Template::new("inline", text, &[]);
+    /// let template = template.with_typed("surface.friction", "--over", "surface.friction=-1..1");
+    /// let error = template.plan(&[("surface.friction", "-1.0".to_owned())]).unwrap_err();
+    /// assert!(error.to_string().contains("--over:1:18"));
+    /// ```
+    #[must_use]
+    pub fn with_typed(
+        mut self,
+        key: impl Into<String>,
+        name: impl Into<String>,
+        words: impl Into<String>,
+    ) -> Self {
+        self.typed.push(Typed {
+            key: key.into(),
+            name: name.into(),
+            words: words.into(),
+        });
+        self
+    }
+
+    /// The same, whose messages about this key are about what was typed for another.
+    pub(crate) fn told_as(mut self, key: &str, other: &str) -> Self {
+        let typed = self.typed.iter().find(|typed| typed.key == other);
+        let typed = typed.cloned().unwrap_or_else(|| Typed {
+            key: String::new(),
+            name: QUESTION.to_owned(),
+            words: other.to_owned(),
+        });
+        let key = key.to_owned();
+        self.typed.insert(0, Typed { key, ..typed });
+        self
+    }
+
     /// The same with coins that are made by a rule: `make` gives other numbers of `[coin]`, such as its
     /// moments of inertia, for the coin of each ratio and radius.
     pub fn with_coins_made(
@@ -119,8 +172,7 @@ impl Template {
     /// # Errors
     /// [`QuestionError::Config`].
     pub fn resolved(&self) -> Result<Self, QuestionError> {
-        let plan = self.plan(&[])?;
-        Ok(Self::new(&self.name, &plan.resolved_toml, &[]))
+        Ok(self.spelled_out()?.1)
     }
 
     /// Whether the size of the coin is not that of the config.
@@ -162,7 +214,10 @@ impl Template {
     /// [`QuestionError::Config`].
     pub(crate) fn spelled_out(&self) -> Result<(Plan, Self), QuestionError> {
         let plan = self.plan(&[])?;
-        let spelled = Self::new(&*self.name, &*plan.resolved_toml, &[]);
+        let spelled = Self {
+            typed: self.typed.clone(),
+            ..Self::new(&*self.name, &*plan.resolved_toml, &[])
+        };
         Ok((plan, spelled))
     }
 
@@ -175,10 +230,20 @@ impl Template {
             .map(|(key, value)| (key.as_str(), format!("{value:?}")))
             .collect();
         for (key, value) in own.iter().chain(values).chain([&stop]) {
-            let text = format!("{key}={value}");
-            overrides.push(text.parse().map_err(QuestionError::Key)?);
+            overrides.push(self.made(key, value)?);
         }
         Ok(config::parse(&self.name, &self.text, &overrides)?)
+    }
+
+    /// What a question puts under a key.
+    fn made(&self, key: &str, value: &str) -> Result<Override, QuestionError> {
+        let text = format!("{key}={value}");
+        let set: Override = text.parse().map_err(QuestionError::Key)?;
+        let typed = self.typed.iter().find(|typed| typed.key == key);
+        Ok(match typed {
+            Some(typed) => set.made_of(&typed.name, &typed.words),
+            None => set.made_of(QUESTION, key),
+        })
     }
 }
 

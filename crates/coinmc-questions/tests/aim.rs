@@ -201,6 +201,10 @@ fn questions_without_sense_are_refused() {
         negative.starts_with("the config has problems"),
         "{negative}"
     );
+    assert!(
+        negative.contains("question:1:1") && !negative.contains("orientation"),
+        "{negative}"
+    );
     let sure = ROBOT.replace("sd = 10.0", "sd = 0.0").replace(
         "uniform = { from = 1.0, to = 5.0 }",
         "normal = { mean = 0.0, sd = 0.0 }",
@@ -229,6 +233,11 @@ fn an_impossible_hand_is_refused_before_any_toss() {
         ..plane()
     };
     let error = ask(&text, &question, 1).expect_err("refused");
+    let message = error.to_string();
+    assert!(
+        message.starts_with("with 1.5 times the spread of the hand, `launch.height_m"),
+        "{message}"
+    );
     let QuestionError::Clumsy { factor, .. } = error else {
         panic!("{error}");
     };

@@ -192,11 +192,58 @@ fn questions_without_sense_are_refused() {
         high.starts_with("the range cannot lead to 10000000000000: "),
         "{high}"
     );
+    let both = with(|q| q.range = Some([-3.0, -2.0]));
+    for told in ["lead from -3: `coin", "lead to -2: `coin"] {
+        assert!(both.contains(told), "{both}");
+    }
+    let all = with(|q| {
+        (q.target, q.half_width, q.max_tosses) = (2.0, -1.0, 3);
+        q.range = Some([3.0, 1.0]);
+    });
+    for told in [
+        "the target",
+        "the half width",
+        "at least 4096 tosses",
+        "the range must",
+    ] {
+        assert!(all.contains(told), "{all}");
+    }
     assert!(with(|q| q.key = "coin.mass_kg".to_owned()).contains("no natural range"));
     assert!(with(|q| q.key = "coin.ratoi".to_owned()).contains("did you mean `ratio`"));
     let sized = Template::new("inline", ROBOT, &[]).with_size(Size::Diameter(-1.0));
     assert!(sized.is_err());
     assert!(EverydayScene::named("woood").is_err());
+}
+
+/// Whoever asked typed a key, and no config.
+#[test]
+fn a_problem_with_the_parameter_quotes_what_was_typed() {
+    let question = Question {
+        key: "surface.frction".to_owned(),
+        ..coarse()
+    };
+    let cancel = AtomicBool::new(false);
+    let workers = Workers {
+        threads: None,
+        cancel: &cancel,
+        made: &|_| (),
+    };
+    let refused = |template: &Template| {
+        let error = fair(template, &question, &workers).expect_err("no such key");
+        let QuestionError::Config(problems) = error else {
+            panic!("{error}");
+        };
+        problems.render(false)
+    };
+    let template = Template::new("inline", format!("coin.ratio = 1.5\n{ROBOT}"), &[]);
+    let told = refused(&template);
+    assert!(told.contains("question:1:9"), "{told}");
+    let typed = template.with_typed("surface.frction", "--vary", "surface.frction");
+    let told = refused(&typed);
+    assert!(
+        told.contains("--vary:1:9") && !told.contains("1.0"),
+        "{told}"
+    );
 }
 
 /// Without friction the fair ratio is 1.557 (a search of its own, ± 0.005), with it 1.672: the linear

@@ -200,6 +200,13 @@ fn questions_without_sense_are_refused() {
     assert!(refused(&|q| q.unknowns[1].to = 0.1).starts_with("the range must lead"));
     assert!(refused(&|q| q.unknowns[1] = q.unknowns[0].clone()).contains("given twice"));
     assert!(refused(&|q| q.unknowns[0].key = "surface.frction".to_owned()).contains("choose from"));
+    let both = refused(&|q| {
+        q.unknowns[0].key = "surface.frction".to_owned();
+        q.unknowns[1].key = "coin.ratoi".to_owned();
+    });
+    for near in ["`surface.friction`?)", "`coin.ratio`?)"] {
+        assert!(both.contains(near), "{both}");
+    }
     let negative = refused(&|q| q.unknowns[0].from = -1.0);
     assert!(negative.contains("surface.friction"), "{negative}");
 }

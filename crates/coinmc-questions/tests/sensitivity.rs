@@ -187,6 +187,16 @@ fn questions_without_sense_are_refused() {
         .starts_with("at least 256 tosses")
     );
     assert!(refused(ARC, &steps(&["coin.ratoi"], 1000)).contains("choose from coin."));
+    let all = refused(
+        ARC,
+        &steps(&["coin.ratoi", "coin.ratio", "surface.tilt"], 5),
+    );
+    for told in [
+        "at least 256 tosses",
+        "`coin.ratoi` (did you mean `coin.ratio`?), `surface.tilt` are not numbers",
+    ] {
+        assert!(all.contains(told), "{all}");
+    }
     let swept = ARC.replace("ratio = 1.0", "ratio = [1.0, 2.0]");
     assert!(refused(&swept, &ratio).ends_with("but sweeps ratio"));
 }

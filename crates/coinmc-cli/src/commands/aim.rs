@@ -58,6 +58,7 @@ pub(crate) struct AimAt {
         long,
         value_name = "FACTORS",
         value_delimiter = ',',
+        value_parser = super::trimmed::<f64>,
         default_value = "2,4"
     )]
     clumsy: Vec<f64>,
@@ -70,21 +71,28 @@ pub(crate) struct AimAt {
     answer: AnswerArgs,
 }
 
-/// A number of the launch and its values.
+/// A number of the launch and its values, and how they were typed.
 #[derive(Debug, Clone)]
-struct Over(Parameter);
+struct Over(Parameter, String);
 
 impl FromStr for Over {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (KeyRange { key, from, to }, values) = range_and_count(text, VALUES)?;
-        Ok(Self(Parameter {
+        let (range, values) = range_and_count(text, VALUES)?;
+        let KeyRange {
+            key,
+            from,
+            to,
+            text,
+        } = range;
+        let parameter = Parameter {
             key,
             from,
             to,
             values,
-        }))
+        };
+        Ok(Self(parameter, text))
     }
 }
 
@@ -94,7 +102,10 @@ impl AimAt {
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let (_, template) = self.scene.template()?;
+        let (_, mut template) = self.scene.template()?;
+        for Over(parameter, text) in &self.over {
+            template = template.with_typed(&parameter.key, "--over", text);
+        }
         let picture = new_file::begin(self.picture.as_deref(), "svg")?;
         let question = self.question();
         let answer = ask(console, &self.answer, |workers| {
@@ -180,12 +191,13 @@ mod tests {
 
     #[test]
     fn a_parameter_has_a_key_and_a_range() {
-        let Over(parameter) = "launch.height_m=0.1..2:15".parse().expect("a range");
+        let Over(parameter, text) = "launch.height_m=0.1..2:15".parse().expect("a range");
         assert_eq!(
             (parameter.from, parameter.to, parameter.values),
             (0.1, 2.0, 15)
         );
-        let Over(parameter) = "launch.velocity_m_s.z=-1..1".parse().expect("a range");
+        assert_eq!(text, "launch.height_m=0.1..2:15");
+        let Over(parameter, _) = "launch.velocity_m_s.z=-1..1".parse().expect("a range");
         assert_eq!((parameter.from, parameter.values), (-1.0, VALUES));
         for wrong in [
             "", "a", "a=1", "a=1..", "a=1..2:", "a=1..2:x", "=..", "a=b..c",

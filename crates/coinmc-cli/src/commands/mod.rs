@@ -20,7 +20,7 @@ mod names;
 mod new_file;
 mod other_size;
 mod page;
-mod quantity;
+pub(crate) mod quantity;
 mod question;
 mod rare;
 mod report;
@@ -63,6 +63,7 @@ pub(crate) use trace::Trace;
 pub(crate) use validate::Validate;
 
 use coinmc_core::Face;
+use std::str::FromStr;
 
 /// A whole number, in which digits may be grouped by `_`; `1e9` is one, too, as in a config.
 fn count(text: &str) -> Result<u64, String> {
@@ -79,6 +80,11 @@ fn count(text: &str) -> Result<u64, String> {
 fn whole(x: f64) -> Option<u64> {
     const EXACT: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
     ((0.0..=EXACT).contains(&x) && libm::trunc(x) == x).then_some(x as u64)
+}
+
+/// A value of a list, in which blanks may follow the commas.
+fn trimmed<T: FromStr>(text: &str) -> Result<T, T::Err> {
+    text.trim().parse()
 }
 
 /// The face of a name, for arguments.

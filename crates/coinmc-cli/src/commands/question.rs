@@ -81,6 +81,8 @@ pub(super) struct KeyRange {
     pub(super) key: String,
     pub(super) from: f64,
     pub(super) to: f64,
+    /// As it was typed.
+    pub(super) text: String,
 }
 
 impl KeyRange {
@@ -101,6 +103,7 @@ impl FromStr for KeyRange {
             let (from, to) = range.split_once("..")?;
             Some(Self {
                 key: key.trim().to_owned(),
+                text: text.to_owned(),
                 from: from.trim().parse().ok()?,
                 to: to.trim().parse().ok()?,
             })
@@ -120,7 +123,11 @@ pub(super) fn range_and_count(text: &str, default: usize) -> Result<(KeyRange, u
         }
         None => (text, default),
     };
-    Ok((range.parse()?, values))
+    let range = KeyRange {
+        text: text.to_owned(),
+        ..range.parse()?
+    };
+    Ok((range, values))
 }
 
 /// Why there is no answer.

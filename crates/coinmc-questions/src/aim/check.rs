@@ -4,6 +4,7 @@ use super::launch::Launch;
 use super::plane::Plane;
 use super::{Aim, MOST_FACTORS, MOST_PLACES, MOST_TOSSES, Parameter};
 use crate::{QuestionError, Template, Workers};
+use coinmc::config::Diagnostics;
 use coinmc::plan::Plan;
 use std::sync::atomic::Ordering;
 
@@ -50,7 +51,8 @@ pub(super) fn checked(
         if workers.cancel.load(Ordering::Relaxed) {
             return Err(QuestionError::Stopped);
         }
-        let plan = plans.plan(&plans.launch_at(question, place))?;
+        let plan = plans.plan(&plans.launch_at(question, place));
+        let plan = plan.map_err(|error| plans.told(question, place).unwrap_or(error))?;
         plans.places.push(plan);
     }
     check_clumsiness(&plans, question)?;
@@ -147,6 +149,22 @@ impl Plans {
 
     fn plan(&self, launch: &Launch) -> Result<Plan, QuestionError> {
         self.template.plan(&[("launch", launch.to_string())])
+    }
+
+    /// Why there is no such place, told of the parameters that are at fault; `None` if each of them by itself is sound.
+    fn told(&self, question: &Aim, place: usize) -> Option<QuestionError> {
+        let values = self.plane.at(place);
+        let values = question.parameters.iter().zip(values);
+        let refused = values.filter_map(|(parameter, value)| {
+            let mut launch = self.launch.clone();
+            *launch.number(&parameter.key)? = value;
+            let told = self.template.clone().told_as("launch", &parameter.key);
+            match told.plan(&[("launch", launch.to_string())]) {
+                Err(QuestionError::Config(problems)) => Some(problems),
+                _ => None,
+            }
+        });
+        refused.reduce(Diagnostics::and).map(QuestionError::Config)
     }
 
     fn launch_at(&self, question: &Aim, place: usize) -> Launch {

@@ -21,6 +21,7 @@ mod tosses;
 pub use numerical::{Numerical, finer_settings};
 pub use refine::Round;
 
+use crate::span::Span;
 use crate::{QuestionError, Template, Workers};
 use axis::Axis;
 use coinmc_core::{Coin, Face};
@@ -224,38 +225,53 @@ pub fn fair(
     curve::answer(template, &question, Axis::new(range[0], range[1]), workers)
 }
 
-/// The range to search, once the question has been checked.
+/// The range to search, or everything that is wrong with the question.
 fn checked(template: &Template, question: &Question) -> Result<[f64; 2], QuestionError> {
+    let mut refused = refused_numbers(question);
+    if template.is_sized() && question.key == "coin.radius_m" {
+        let key = question.key.clone();
+        refused.push(QuestionError::SizeIsSought { key });
+    }
+    let range = checked_range(template, question).map_err(|error| refused.push(error));
+    match (range, QuestionError::of_all(refused)) {
+        (Ok(range), None) => Ok(range),
+        (_, Some(error)) => Err(error),
+        (Err(()), None) => unreachable!("why there is no range was noted"),
+    }
+}
+
+/// What is wrong with the numbers of a question, whatever the config.
+fn refused_numbers(question: &Question) -> Vec<QuestionError> {
     let Question {
-        key,
         target,
         half_width,
         max_tosses,
         ..
-    } = question;
-    if !(*target > 0.0 && *target < 1.0) {
-        return Err(QuestionError::Target(*target));
+    } = *question;
+    let mut refused = vec![];
+    if !(target > 0.0 && target < 1.0) {
+        refused.push(QuestionError::Target(target));
     }
-    if !(*half_width > 0.0 && half_width.is_finite()) {
-        return Err(QuestionError::HalfWidth(*half_width));
+    if !(half_width > 0.0 && half_width.is_finite()) {
+        refused.push(QuestionError::HalfWidth(half_width));
     }
-    if *max_tosses < LEAST_TOSSES {
-        return Err(QuestionError::TooFewTosses {
+    if max_tosses < LEAST_TOSSES {
+        refused.push(QuestionError::TooFewTosses {
             least: LEAST_TOSSES,
-            given: *max_tosses,
+            given: max_tosses,
         });
     }
-    if template.is_sized() && key == "coin.radius_m" {
-        return Err(QuestionError::SizeIsSought { key: key.clone() });
-    }
+    refused
+}
+
+/// The range to search: the one asked for, or the natural one.
+fn checked_range(template: &Template, question: &Question) -> Result<[f64; 2], QuestionError> {
     let [from, to] = match question.range {
         Some(range) => range,
-        None => natural_range(template, key)?,
+        None => natural_range(template, &question.key)?,
     };
-    if !(from.is_finite() && to.is_finite() && from < to) {
-        return Err(QuestionError::Range { from, to });
-    }
-    check_ends(template, key, [from, to])?;
+    Span { from, to }.check()?;
+    check_ends(template, &question.key, [from, to])?;
     Ok([from, to])
 }
 
@@ -292,8 +308,8 @@ pub fn natural_range(template: &Template, key: &str) -> Result<[f64; 2], Questio
     }
 }
 
-/// Refuses an end at which there is no such scene, before any toss. What is wrong at both ends may be the key,
-/// or the config itself, and is told as such.
+/// Refuses an end at which there is no such scene, before any toss. What is the same at both ends is wrong with the
+/// key, or with the config itself, and is told as such.
 fn check_ends(template: &Template, key: &str, ends: [f64; 2]) -> Result<(), QuestionError> {
     let at = |value: f64| template.plan(&[(key, format!("{value:?}"))]);
     let refused = |end, value, problems| QuestionError::RangeEnd {
@@ -304,6 +320,13 @@ fn check_ends(template: &Template, key: &str, ends: [f64; 2]) -> Result<(), Ques
     match ends.map(at) {
         [Err(QuestionError::Config(problems)), Ok(_)] => Err(refused("from", ends[0], problems)),
         [Ok(_), Err(QuestionError::Config(problems))] => Err(refused("to", ends[1], problems)),
+        [
+            Err(QuestionError::Config(from)),
+            Err(QuestionError::Config(to)),
+        ] if from.problems() != to.problems() => Err(QuestionError::Several(vec![
+            refused("from", ends[0], from),
+            refused("to", ends[1], to),
+        ])),
         [from, to] => from.and(to).map(|_| ()),
     }
 }

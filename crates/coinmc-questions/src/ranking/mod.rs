@@ -35,7 +35,7 @@ pub use picture::picture_of_ranking;
 
 use crate::interval::Interval;
 use crate::scenes::Assumption;
-use crate::sensitivity::{LEAST_TOSSES, parameters};
+use crate::sensitivity::{LEAST_TOSSES, Parameter, not_varied, parameters};
 use crate::span::Span;
 use crate::workers::At;
 use crate::{QuestionError, Template, Workers};
@@ -186,20 +186,8 @@ pub fn rank(
 ) -> Result<Ranking, QuestionError> {
     check(question)?;
     let (own, spelled_out) = template.spelled_out()?;
-    let known = parameters(template)?;
-    let value = |unknown: &Unknown| {
-        own.number(&unknown.key)
-            .ok_or_else(|| QuestionError::NotVaried {
-                key: unknown.key.clone(),
-                known: known
-                    .iter()
-                    .map(|known| &*known.key)
-                    .collect::<Vec<_>>()
-                    .join(", "),
-            })
-    };
     let unknowns = &question.unknowns;
-    let values = unknowns.iter().map(value).collect::<Result<Vec<_>, _>>()?;
+    let values = values(&own, unknowns, &parameters(template)?)?;
     // every problem at an end of a range is found before the first toss
     let ends = ends(&spelled_out, unknowns)?;
     let (p, at_ends) = tornado(question, &own, &ends, workers)?;
@@ -249,46 +237,66 @@ impl Rank {
     }
 }
 
+/// Everything that is wrong with the question, whatever the config.
 fn check(question: &Rank) -> Result<(), QuestionError> {
     let unknowns = &question.unknowns;
     if unknowns.is_empty() {
         return Err(QuestionError::NoUnknown);
     }
-    let at_most = |what, given, most| {
-        let sound = given <= most;
-        sound
-            .then_some(())
-            .ok_or(QuestionError::TooMany { what, most, given })
-    };
-    at_most(
-        "unknown numbers",
-        unknowns.len() as u64,
-        MOST_UNKNOWNS as u64,
-    )?;
-    at_most("samples", question.samples, MOST_SAMPLES)?;
-    at_most("tosses of an end", question.tosses, crate::MOST_TOSSES)?;
-    for (index, unknown) in unknowns.iter().enumerate() {
-        unknown.span().check()?;
-        if unknowns[..index]
-            .iter()
-            .any(|other| other.key == unknown.key)
-        {
-            return Err(QuestionError::Twice(unknown.key.clone()));
+    let mut refused = vec![];
+    for (what, given, most) in [
+        (
+            "unknown numbers",
+            unknowns.len() as u64,
+            MOST_UNKNOWNS as u64,
+        ),
+        ("samples", question.samples, MOST_SAMPLES),
+        ("tosses of an end", question.tosses, crate::MOST_TOSSES),
+    ] {
+        if given > most {
+            refused.push(QuestionError::TooMany { what, most, given });
+        }
+    }
+    for (index, unknown) in unknowns.iter().take(MOST_UNKNOWNS).enumerate() {
+        refused.extend(unknown.span().check().err());
+        let mut before = unknowns[..index].iter();
+        if before.any(|other| other.key == unknown.key) {
+            refused.push(QuestionError::Twice(unknown.key.clone()));
         }
     }
     if question.samples < LEAST_SAMPLES {
-        return Err(QuestionError::TooFewSamples {
+        refused.push(QuestionError::TooFewSamples {
             least: LEAST_SAMPLES,
             given: question.samples,
         });
     }
     if question.tosses < LEAST_TOSSES {
-        return Err(QuestionError::TooFewTosses {
+        refused.push(QuestionError::TooFewTosses {
             least: LEAST_TOSSES,
             given: question.tosses,
         });
     }
-    Ok(())
+    QuestionError::of_all(refused).map_or(Ok(()), Err)
+}
+
+/// The numbers of the config itself.
+fn values(
+    own: &Plan,
+    unknowns: &[Unknown],
+    known: &[Parameter],
+) -> Result<Vec<f64>, QuestionError> {
+    let (mut values, mut lacking) = (vec![], vec![]);
+    for Unknown { key, .. } in unknowns {
+        match own.number(key) {
+            Some(value) => values.push(value),
+            None => lacking.push(key.as_str()),
+        }
+    }
+    if lacking.is_empty() {
+        Ok(values)
+    } else {
+        Err(not_varied(known, &lacking))
+    }
 }
 
 /// The plans at both ends of all ranges.

@@ -12,7 +12,7 @@ const KEPT: usize = 100;
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Problem {
-    /// The file, or `--set` for an override.
+    /// The file; `--set` for an override, or what it was [made of](super::Override::made_of).
     pub source: String,
     /// Line, from 1; 0 if the problem has no location in the text (such as a missing file).
     pub line: usize,
@@ -194,6 +194,7 @@ impl Problems {
             .found
             .into_iter()
             .map(|(span, message, help)| {
+                let span = sources.shown(span);
                 let Source { name, .. } = sources.get(span);
                 let (line, column) = sources.place(span);
                 let (lines, first_line, marked) = sources.excerpt(span);

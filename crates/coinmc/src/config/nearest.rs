@@ -29,6 +29,11 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     best.map(|(_, candidate)| candidate)
 }
 
+/// Whether a word is a name with one typing error at most, in whatever case.
+pub(super) fn is_same_but_one(word: &str, name: &str) -> bool {
+    word.len() <= 64 && typing_errors(&word.to_lowercase(), name) <= 1
+}
+
 /// Optimal string alignment: insertions, deletions, replacements and swaps of neighbours.
 fn typing_errors(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());

@@ -32,6 +32,8 @@ pub struct Override {
     text: String,
     keys: Vec<(String, Range<usize>)>,
     value: Range<usize>,
+    /// The name and the text of what the override was made of.
+    made_of: Option<(String, String)>,
 }
 
 /// Why a text is not an override. Problems of the value itself are found when the config is read.
@@ -65,6 +67,7 @@ impl FromStr for Override {
             text: text.to_owned(),
             keys,
             value,
+            made_of: None,
         })
     }
 }
@@ -116,9 +119,40 @@ impl Override {
             .all(|(given, _)| wanted.next() == Some(given))
     }
 
+    /// The same override, which a program made of these words of its user: messages name where they were typed, such
+    /// as `--vary`, and quote them.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc::config::{self, Override};
+    /// let set: Override = "surface.frction=1.0".parse()?;
+    /// let set = set.made_of("--vary", "surface.frction");
+    /// let text = "coin.ratio = 1.2\nengine.analytic.rule = 'zone'";
+    /// let problems = config::parse("inline", text, &[set]).unwrap_err();
+    /// let problem = &problems.problems()[0];
+    /// assert_eq!((problem.source.as_str(), problem.column), ("--vary", 9));
+    /// assert!(!problems.render(false).contains("1.0"));
+    /// # Ok::<(), coinmc::config::OverrideError>(())
+    /// ```
+    #[must_use]
+    pub fn made_of(mut self, name: impl Into<String>, words: impl Into<String>) -> Self {
+        self.made_of = Some((name.into(), words.into()));
+        self
+    }
+
+    /// Its text as a source of problems.
+    fn add_to(&self, sources: &mut Sources) -> usize {
+        match (&self.made_of, equals_sign(&self.text)) {
+            (Some((name, words)), Some(equals)) => {
+                sources.add_made((&self.text, equals), (name, words))
+            }
+            _ => sources.add("--set", &self.text),
+        }
+    }
+
     /// Puts the value into the tree, or reports what is wrong with it.
     pub(super) fn apply(&self, sources: &mut Sources, root: &mut Table, problems: &mut Problems) {
-        let source = sources.add("--set", &self.text);
+        let source = self.add_to(sources);
         match self.node(sources, source) {
             Ok(node) => {
                 let path: Vec<(String, Span)> = self
@@ -126,7 +160,7 @@ impl Override {
                     .iter()
                     .map(|(key, range)| (key.clone(), sources.span(source, range.clone())))
                     .collect();
-                lay_out(root, &path);
+                lay_out(root, &path, node.span);
                 root.set(&path, node);
             }
             Err(Mistake {
@@ -156,10 +190,10 @@ impl Override {
     }
 }
 
-/// Makes room for a value: takes out keys that say the same as its own, and spells out the part of a
-/// preset of which it is a part.
-fn lay_out(root: &mut Table, path: &[(String, Span)]) {
-    let [(table, span), (key, _), deeper @ ..] = path else {
+/// Makes room for a value at this place: takes out keys that say the same as its own, and spells out the part of a
+/// preset of which it is a part, whose numbers stand in no text: what is wrong with them is told of the value.
+fn lay_out(root: &mut Table, path: &[(String, Span)], value: Span) {
+    let [(table, _), (key, _), deeper @ ..] = path else {
         return;
     };
     let Some(Value::Table(there)) = root.get_mut(table).map(|node| &mut node.value) else {
@@ -173,9 +207,9 @@ fn lay_out(root: &mut Table, path: &[(String, Span)]) {
     } else if table == "launch"
         && there.get(key).is_none()
         && let Some(Value::Text(preset)) = there.get("preset").map(|entry| &entry.node.value)
-        && let Some(node) = of_preset(preset, key, deeper, *span)
+        && let Some(node) = of_preset(preset, key, deeper, value)
     {
-        there.set(&[(key.clone(), *span)], node);
+        there.set(&[(key.clone(), value)], node);
     }
 }
 

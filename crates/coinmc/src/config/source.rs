@@ -16,6 +16,20 @@ pub(super) struct Span {
 pub(super) struct Source {
     pub(super) name: Arc<str>,
     pub(super) text: Arc<str>,
+    /// Where to show what is wrong with it, if not in the text itself.
+    made_of: Option<MadeOf>,
+}
+
+/// The words of a user of which a program made the text of a source, `key=value`.
+#[derive(Debug, Clone)]
+struct MadeOf {
+    /// The source of those words.
+    words: usize,
+    /// The key in the text.
+    key: Range<usize>,
+    /// Where those words have the key, if they do, and what else they say.
+    key_in_words: Option<usize>,
+    value_in_words: Range<usize>,
 }
 
 /// The config file and, after it, every override.
@@ -28,8 +42,45 @@ impl Sources {
         self.0.push(Source {
             name: name.into(),
             text: text.into(),
+            made_of: None,
         });
         self.0.len() - 1
+    }
+
+    /// Adds a text `key=value` with its `=` here, that was made of these words: messages show those. They may say
+    /// the key, its value behind an `=`, both or something else.
+    pub(super) fn add_made(
+        &mut self,
+        (text, equals): (&str, usize),
+        (name, words): (&str, &str),
+    ) -> usize {
+        let key = text[..equals].trim();
+        let start = text.len() - text.trim_start().len();
+        let value = words.find('=').map_or(0, |equals| equals + 1);
+        let made_of = MadeOf {
+            words: self.add(name, words),
+            key: start..start + key.len(),
+            key_in_words: words.find(key),
+            value_in_words: value..words.len(),
+        };
+        let source = self.add(name, text);
+        self.0[source].made_of = Some(made_of);
+        source
+    }
+
+    /// Where to show what is wrong at this place: in the words of the user.
+    pub(super) fn shown(&self, span: Span) -> Span {
+        let Some(made_of) = &self.get(span).made_of else {
+            return span;
+        };
+        let range = match made_of.key_in_words {
+            Some(start) if span.end <= made_of.key.end => {
+                let shift = |index: usize| start + index.saturating_sub(made_of.key.start);
+                shift(span.start)..shift(span.end)
+            }
+            _ => made_of.value_in_words.clone(),
+        };
+        self.span(made_of.words, range)
     }
 
     pub(super) fn get(&self, span: Span) -> &Source {
@@ -110,6 +161,23 @@ mod tests {
             sources.excerpt(sources.span(file, 12..13)),
             ("µ = 1\nβγ = 2", 1, 12..13)
         );
+    }
+
+    #[test]
+    fn a_place_in_a_made_text_is_shown_in_the_words_of_the_user() {
+        let shown = |words: &str, range: Range<usize>| {
+            let mut sources = Sources::default();
+            let made = sources.add_made(("a.bc=1.5", 4), ("--over", words));
+            let span = sources.shown(sources.span(made, range));
+            assert_eq!(&*sources.get(span).name, "--over");
+            sources.text(span).to_owned()
+        };
+        assert_eq!(shown("a.bc=0..2", 2..4), "bc");
+        assert_eq!(shown(" a.bc = 0..2", 0..1), "a");
+        assert_eq!(shown("a.bc=0..2", 5..8), "0..2");
+        assert_eq!(shown("a.bc", 2..4), "bc");
+        assert_eq!(shown("a.bc", 5..8), "a.bc");
+        assert_eq!(shown("robot", 2..4), "robot");
     }
 
     #[test]

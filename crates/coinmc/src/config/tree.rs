@@ -2,7 +2,8 @@
 
 use super::diagnostics::Problems;
 use super::source::{Sources, Span};
-use super::syntax::{Mistake, help, mistakes};
+use super::syntax::{Mistake, ParseError, all_errors, help, mistakes};
+use std::ops::Range;
 use toml::de::{DeFloat, DeInteger, DeTable, DeValue};
 
 /// A value and its location.
@@ -155,8 +156,7 @@ pub(super) fn document(
     problems: &mut Problems,
 ) -> Option<Table> {
     let (table, errors) = DeTable::parse_recoverable(text);
-    let place = |error: &toml::de::Error| {
-        let range = error.span().unwrap_or(text.len()..text.len());
+    let place = |range: Range<usize>| {
         // an error at the end of the text is shown after its last character
         if range.start >= text.len() {
             sources.end(source)
@@ -164,19 +164,25 @@ pub(super) fn document(
             sources.span(source, range)
         }
     };
+    let errors = errors.iter().map(|error| {
+        let range = error.span().unwrap_or(text.len()..text.len());
+        (range, error.message().to_owned())
+    });
     // The message of the TOML crate identifies the errors after which parsing can continue.
-    let (duplicates, fatal): (Vec<_>, Vec<_>) = errors
-        .iter()
-        .partition(|error| error.message() == "duplicate key");
+    let is_duplicate = |(_, message): &ParseError| message == "duplicate key";
+    let (duplicates, fatal): (Vec<_>, Vec<_>) = errors.partition(is_duplicate);
     if !fatal.is_empty() {
-        let fatal = fatal.iter().map(|error| (place(error), error.message()));
+        let mut fatal = all_errors(text, fatal);
+        fatal.retain(|error| !is_duplicate(error));
+        let fatal = fatal.iter();
+        let fatal = fatal.map(|(range, message)| (place(range.clone()), message.as_str()));
         for mistake in mistakes(sources, fatal.collect()) {
             problems.push(mistake.span, mistake.message, mistake.help);
         }
         return None;
     }
-    for error in duplicates {
-        let span = place(error);
+    for (range, _) in duplicates {
+        let span = place(range);
         let key = super::diagnostics::quoted(sources.text(span));
         problems.add_with_help(span, format!("{key} is given twice"), "keep one of them");
     }
@@ -255,7 +261,7 @@ fn convert_table(sources: &Sources, source: usize, offset: usize, table: &DeTabl
     Table { entries }
 }
 
-fn shifted(sources: &Sources, source: usize, offset: usize, range: std::ops::Range<usize>) -> Span {
+fn shifted(sources: &Sources, source: usize, offset: usize, range: Range<usize>) -> Span {
     sources.span(source, range.start + offset..range.end + offset)
 }
 

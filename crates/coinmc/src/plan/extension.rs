@@ -48,6 +48,8 @@ pub enum Obstacle {
     Less(Vec<Change>),
     /// The points are there, but at other places of the sweep, and so with other random numbers.
     Moved(Vec<Change>),
+    /// Several of these at once.
+    Several(Vec<Obstacle>),
 }
 
 impl fmt::Display for Obstacle {
@@ -62,6 +64,10 @@ impl fmt::Display for Obstacle {
                 ", which gives points that are there other random numbers (put new values at the end of the list \
                  that varies slowest, the first of the config)",
             ),
+            Self::Several(obstacles) => {
+                let told: Vec<String> = obstacles.iter().map(Self::to_string).collect();
+                return f.write_str(&told.join("; "));
+            }
         };
         let named: Vec<String> = changes.iter().take(NAMED).map(Change::to_string).collect();
         let more = if changes.len() > NAMED { "; …" } else { "" };
@@ -90,17 +96,21 @@ impl Extension {
             && old.confidence.to_bits() == new.confidence.to_bits()
             && old.interval == new.interval;
         let found = if same { places(old, new) } else { None };
-        let Some(places) = found else {
-            return Err(Obstacle::Changed(others));
+        let places = match found {
+            None => Err(Obstacle::Changed(others)),
+            Some(places) if are_moved(&places) && !new.paired => Err(Obstacle::Moved(others)),
+            Some(places) => Ok(places),
         };
-        if !asks_for_more(&old.stop, &new.stop) {
-            return Err(Obstacle::Less(stop));
+        let stops = if asks_for_more(&old.stop, &new.stop) {
+            Ok(())
+        } else {
+            Err(Obstacle::Less(stop))
+        };
+        match (places, stops) {
+            (Ok(places), Ok(())) => Ok(Self { places, changes }),
+            (Err(one), Err(other)) => Err(Obstacle::Several(vec![one, other])),
+            (Err(only), _) | (_, Err(only)) => Err(only),
         }
-        let is_moved = places.iter().enumerate().any(|(old, new)| old != *new);
-        if is_moved && !new.paired {
-            return Err(Obstacle::Moved(others));
-        }
-        Ok(Self { places, changes })
     }
 
     /// The place in the new plan of a point of the old one.
@@ -110,7 +120,7 @@ impl Extension {
 
     /// Whether some point has another place.
     pub(crate) fn moves(&self) -> bool {
-        self.places.iter().enumerate().any(|(old, new)| old != *new)
+        are_moved(&self.places)
     }
 }
 
@@ -176,6 +186,11 @@ fn places(old: &Plan, new: &Plan) -> Option<Vec<usize>> {
         same.next().copied()
     };
     (0..old.points.len()).map(place).collect()
+}
+
+/// Whether some point has another place.
+fn are_moved(places: &[usize]) -> bool {
+    places.iter().enumerate().any(|(old, new)| old != *new)
 }
 
 /// Whether two points make the same tosses of the same random numbers.
@@ -277,6 +292,11 @@ mod tests {
             of(&old, &less)
                 .unwrap_err()
                 .starts_with("stop.tosses 100 -> 99, which")
+        );
+        let both = scene("[1, 3]", "0.5", "stop.tosses = 99");
+        assert_eq!(
+            of(&old, &both).unwrap_err(),
+            "coin.ratio [1.0, 2.0] -> [1.0, 3.0]; stop.tosses 100 -> 99, which is not more of the same"
         );
     }
 

@@ -168,6 +168,13 @@ const TABLES: &[Case] = &[
     ("seed = 1", "'a\\nb' = 1\n'' = 2", &[(1, 1, "unknown key `a\\\\nb`"), (2, 1, "unknown key ``")]),
     ("ratio = 1.2", "ratoi = 1.2", &[(3, 1, "did you mean `ratio`?")]),
     ("ratio = 1.2", "ratio = 1.2\ncolour = 3", &[(4, 1, "allowed: `ratio`, ")]),
+    // what is in a table of a wrong name is checked, too, where no other can be meant
+    ("[coin]\nratio = 1.2", "[Coin]\nratoi = 1\nradius = 4", &[(2, 2, "did you mean `coin`?"), (3, 1, "unknown key `ratoi` in `coin` did you mean `ratio`?"), (4, 1, "did you mean `radius_m`?")]),
+    ("[surface]\nrestitution = 0.5", "[surfce]\nrestitution = 1.5", &[(4, 2, "did you mean `surface`?"), (5, 15, "`surface.restitution` must be from 0 to 1")]),
+    ("[surface]\nrestitution = 0.5", "[srufaec]\nrestitution = 1.5", &[(4, 2, "did you mean `surface`?")]),
+    ("ratio = 1.2\n", "ratio = 1.2\n[Coin]\nratio = -1\n", &[(4, 2, "did you mean `coin`?")]),
+    ("[engine.flat]\nlaw = 'moreau'", "[engine.Flat]\nlawv = 'moreau'", &[(9, 9, "did you mean `flat`?"), (10, 1, "did you mean `law`?")]),
+    ("[engine.flat]\nlaw = 'moreau'", "[Engine.flat]\nlaw = 'moro'", &[(9, 2, "did you mean `engine`?"), (10, 7, "found `moro`")]),
     ("[coin]\nratio = 1.2\n", "", &[(10, 14, "`coin` is missing")]),
     ("ratio = 1.2\n", "", &[(2, 1, "`ratio` is missing in `coin`")]),
     ("seed = 1\n[coin]\nratio = 1.2", "coin = 3", &[(1, 8, "`coin` must be a table, found an integer: `3`")]),
@@ -210,6 +217,11 @@ const SYNTAX: &[Case] = &[
     ("seed = 1", "seed = 1\nseed = 2\npaired = 3", &[(2, 1, "`seed` is given twice"), (3, 10, "true or false")]),
     ("seed = 1", "seed == 1\nsede = 1", &[(1, 7, "this is no TOML")]),
     ("seed = 1", "seed = \"\u{1}\"", &[(1, 9, "this is no TOML")]),
+    ("1.2", "010", &[(3, 9, "a number has no zeros in front: `10`")]),
+    ("ratio = 1.2", "ratio := 1", &[(3, 7, "`ratio = 1`")]),
+    ("ratio = 1.2", "ratio: 1", &[(3, 6, "`ratio = 1`")]),
+    // a line without a value leaves the others as they are
+    ("ratio = 1.2\n[surface]\nrestitution = 0.5\nfriction = 0.3", "ratio 1\n[surface]\nrestitution = 50%\nfriction = 3mm", &[(3, 7, "`ratio = 1`"), (5, 15, "`0.5`"), (6, 12, "unit")]),
 ];
 
 fn check((from, to, expected): &Case) -> Result<(), String> {
@@ -398,6 +410,18 @@ fn tables_of_measurements_are_told_from_mistyped_ones() {
         assert!(help.starts_with("`coinmc calibrate` reads ["), "{help}");
     }
     assert!(helps("[priro]")[0].starts_with("allowed: "));
+}
+
+/// The other numbers of a preset stand in no text.
+#[test]
+fn a_distribution_that_an_override_empties_is_told_of_its_value() {
+    let set = "launch.orientation.tilt_deg.uniform.from=200";
+    let found = config::parse("good.toml", GOOD, &[set.parse().unwrap()]).unwrap_err();
+    let [problem] = found.problems() else {
+        panic!("{found}");
+    };
+    assert!(problem.message.contains("from 200 to 180 is empty"));
+    assert_eq!((problem.source.as_str(), problem.column), ("--set", 42));
 }
 
 /// What beginners write instead of TOML is told at once, each with how to write it, and once a line.

@@ -5,7 +5,7 @@ mod report;
 use super::other_size::OtherSize;
 use super::quantity::{Density, Length, Mass, Volume};
 use super::question::{AnswerArgs, SceneArgs, Unanswered, ask};
-use crate::exit::{Failure, Outcome};
+use crate::exit::{Failure, Outcome, several};
 use crate::output::{self, Console, Format};
 use anyhow::anyhow;
 use clap::Args;
@@ -46,9 +46,9 @@ pub(crate) struct Fair {
     #[arg(long, value_name = "P")]
     target: Option<f64>,
 
-    /// The parameter that is varied, by its key
-    #[arg(long, value_name = "KEY", default_value = "coin.ratio")]
-    vary: String,
+    /// The parameter that is varied, by its key [default: coin.ratio]
+    #[arg(long, value_name = "KEY")]
+    vary: Option<String>,
 
     /// Least value to search [default for coin.ratio: 0.05]
     #[arg(long, value_name = "X")]
@@ -99,20 +99,28 @@ pub(crate) struct Fair {
     answer: AnswerArgs,
 }
 
-/// An error that names the option at fault, where that is an end of the range.
-fn by_option(error: QuestionError) -> Unanswered {
-    let QuestionError::RangeEnd {
-        end,
-        value,
-        problems,
-    } = error
-    else {
-        return error.into();
-    };
-    let messages = problems.problems().iter();
-    let messages: Vec<&str> = messages.map(|problem| problem.message.as_str()).collect();
-    let error = anyhow!("--{end} {value}: {}", messages.join("; "));
-    Unanswered::Failed(Failure::Input(error))
+/// The failure, which names the option at fault where that is an end of the range.
+fn by_option(error: QuestionError) -> Failure {
+    match error {
+        QuestionError::RangeEnd {
+            end,
+            value,
+            problems,
+        } => {
+            let messages = problems.problems().iter();
+            let messages: Vec<&str> = messages.map(|problem| problem.message.as_str()).collect();
+            Failure::Input(anyhow!("--{end} {value}: {}", messages.join("; ")))
+        }
+        QuestionError::Several(errors) => several(errors.into_iter().map(by_option)),
+        error => error.into(),
+    }
+}
+
+fn unanswered(error: QuestionError) -> Unanswered {
+    match error {
+        QuestionError::Stopped => Unanswered::Stopped,
+        error => Unanswered::Failed(by_option(error)),
+    }
 }
 
 /// The answer, and what it rests on.
@@ -139,7 +147,7 @@ impl Fair {
         let other_size = self.other_size(scene, &template);
         let template = self.sized(template)?;
         let mut answered = ask(console, &self.answer, |workers| {
-            self.answer(scene, &template, workers).map_err(by_option)
+            self.answer(scene, &template, workers).map_err(unanswered)
         })?;
         answered.other_size = other_size;
         self.present(&answered, console)
@@ -153,7 +161,11 @@ impl Fair {
             (_, _, Some(Mass(mass)), Some(Density(density))) => Size::Volume(mass / density),
             _ => Size::OfConfig,
         };
-        Ok(template.with_size(size)?)
+        let mut template = template.with_size(size)?;
+        if let Some(key) = &self.vary {
+            template = template.with_typed(key, "--vary", key);
+        }
+        Ok(template)
     }
 
     /// What the command line gives in place of the diameter of the config, if both give one.
@@ -170,6 +182,10 @@ impl Fair {
         Some(OtherSize { asked, told_m })
     }
 
+    fn key(&self) -> &str {
+        self.vary.as_deref().unwrap_or("coin.ratio")
+    }
+
     fn answer(
         &self,
         scene: Option<EverydayScene>,
@@ -177,7 +193,7 @@ impl Fair {
         workers: &Workers<'_>,
     ) -> Result<Answered, QuestionError> {
         let question = Question {
-            key: self.vary.clone(),
+            key: self.key().to_owned(),
             range: self.range(template)?,
             face: self.face,
             target: self.target.unwrap_or(1.0 / 3.0),
@@ -211,7 +227,7 @@ impl Fair {
             (None, None) => None,
             (Some(from), Some(to)) => Some([from, to]),
             (from, to) => {
-                let [least, largest] = questions::natural_range(template, &self.vary)?;
+                let [least, largest] = questions::natural_range(template, self.key())?;
                 Some([from.unwrap_or(least), to.unwrap_or(largest)])
             }
         })

@@ -44,7 +44,7 @@ pub(crate) struct SensitivityOf {
     face: Face,
 
     /// Keys of the numbers, separated by commas [default: all that are not 0]
-    #[arg(long, value_name = "KEYS", value_delimiter = ',')]
+    #[arg(long, value_name = "KEYS", value_delimiter = ',', value_parser = super::trimmed::<String>)]
     of: Vec<String>,
 
     /// Change of each number, as a share of it
@@ -105,7 +105,10 @@ impl SensitivityOf {
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let (scene, template) = self.scene.template()?;
+        let (scene, mut template) = self.scene.template()?;
+        for KeyRange { key, text, .. } in &self.over {
+            template = template.with_typed(key, "--over", text);
+        }
         let mut unknowns: Vec<Unknown> = self.over.iter().map(KeyRange::unknown).collect();
         if let (true, Some(scene)) = (self.rank, scene) {
             let assumed = self.scene.assumed(&scene).into_iter().map(Unknown::from);

@@ -75,7 +75,7 @@ impl FromStr for Over {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (KeyRange { key, from, to }, pixels) = range_and_count(text, PIXELS)?;
+        let (KeyRange { key, from, to, .. }, pixels) = range_and_count(text, PIXELS)?;
         let quantity = key.parse().map_err(|error| format!("{error}"))?;
         if !(from.is_finite() && to.is_finite() && from < to) {
             return Err(format!("the range from {from:?} to {to:?} does not go up"));

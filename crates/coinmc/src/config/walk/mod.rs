@@ -189,6 +189,7 @@ impl Walker<'_> {
             .partition(|entry| tags.iter().any(|tag| tag.name == entry.key));
         for entry in &unknown {
             self.unknown_key(entry, tags, path);
+            self.meant(entry, table, tags, path);
         }
         known.sort_by_key(|entry| entry.key_span);
         // every alternative is checked, so that no problem hides behind another
@@ -220,6 +221,13 @@ impl Walker<'_> {
         match forms.pop() {
             Some(checked) if known.len() == 1 && unknown.is_empty() => checked,
             _ => Checked::invalid(span),
+        }
+    }
+
+    /// Checks what is in a table that is without doubt one of these, if its name is not.
+    fn meant(&mut self, entry: &Entry, table: &Table, fields: &[Field], path: &str) {
+        if let Some(field) = table::meant(entry, table, fields) {
+            self.value(&field.kind, &entry.node, &table::join(path, field.name));
         }
     }
 

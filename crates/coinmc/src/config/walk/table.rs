@@ -3,11 +3,11 @@
 use super::Walker;
 use super::names;
 use crate::config::checked::{Checked, CheckedValue};
-use crate::config::nearest::nearest;
+use crate::config::nearest::{is_same_but_one, nearest};
 use crate::config::quantity::Quantity;
 use crate::config::schema::{Absent, Condition, Fallback, Field, Kind, Rule, TableKind};
 use crate::config::source::Span;
-use crate::config::tree::Table;
+use crate::config::tree::{Entry, Table, Value};
 
 /// A table while it is checked: what each field holds, in the order of the schema.
 struct Slots<'a> {
@@ -46,6 +46,7 @@ impl Walker<'_> {
                 slots
                     .mistyped
                     .extend(nearest(&entry.key, fields.iter().map(|f| f.name)));
+                self.meant(entry, table, fields, path);
                 continue;
             };
             let path = join(path, fields[index].name);
@@ -238,6 +239,16 @@ impl Slots<'_> {
     }
 }
 
+/// The table that an entry of another name is without doubt: what is in it is checked as well.
+pub(super) fn meant<'a>(entry: &Entry, table: &Table, fields: &'a [Field]) -> Option<&'a Field> {
+    let name = nearest(&entry.key, fields.iter().map(|field| field.name))?;
+    let field = fields.iter().find(|field| field.name == name)?;
+    let both_tables = matches!(field.kind, Kind::Table(_) | Kind::Choice(..))
+        && matches!(entry.node.value, Value::Table(_));
+    let is_sure = is_same_but_one(&entry.key, name);
+    (both_tables && is_sure && table.get(name).is_none()).then_some(field)
+}
+
 /// The default of an absent key.
 fn absent(kind: &Kind, fallback: Fallback, span: Span) -> Checked {
     let constant = |value| CheckedValue::Number(Quantity::Constant(value), None);
@@ -262,7 +273,7 @@ fn absent(kind: &Kind, fallback: Fallback, span: Span) -> Checked {
     Checked::new(span, value)
 }
 
-fn join(path: &str, key: &str) -> String {
+pub(super) fn join(path: &str, key: &str) -> String {
     if path.is_empty() {
         key.to_owned()
     } else {
