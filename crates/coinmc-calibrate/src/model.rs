@@ -108,6 +108,9 @@ impl Model {
             model.observed.counts.clear();
             model.counted.clear();
         }
+        if !kinds.contains(&Kind::Film) {
+            model.observed.film_remarks.clear();
+        }
         let readings = &mut model.observed.readings;
         readings.retain(|reading| kinds.contains(&reading.kind));
         model

@@ -12,7 +12,7 @@ use coinmc::plan::Plan;
 use coinmc_core::Scene;
 use coinmc_core::schema::fields;
 use prior_given::{PriorGiven, check_ranges, priors};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Tables of the scene that a measurement may have of its own.
 const OWN: &[&str] = &["coin", "launch"];
@@ -43,8 +43,19 @@ pub struct Observations {
     pub counts: Vec<Counted>,
     /// Measured numbers.
     pub readings: Vec<Reading>,
+    /// What casts doubt on the fits of filmed drops.
+    pub(crate) film_remarks: Vec<String>,
     /// Where each of the counts, and then each of the readings, stands.
     pub(crate) places: Vec<Place>,
+}
+
+/// What was met on the way through the tables.
+#[derive(Default)]
+struct Taken {
+    /// Where each of the readings stands.
+    places: Vec<Place>,
+    /// The files of filmed drops.
+    films: Vec<PathBuf>,
 }
 
 /// What a section says.
@@ -122,9 +133,10 @@ impl Observations {
             plan,
             counts: vec![],
             readings: vec![],
+            film_remarks: vec![],
             places: vec![],
         };
-        let mut reading_places = vec![];
+        let mut taken = Taken::default();
         let mut seen = vec![];
         let mut problems = vec![];
         for entry in entries {
@@ -132,13 +144,13 @@ impl Observations {
                 seen.push(kind);
                 seen.iter().filter(|other| **other == kind).count()
             });
-            let added = observed.add(entry, number, &parameters, folder, &mut reading_places);
+            let added = observed.add(entry, number, &parameters, folder, &mut taken);
             problems.extend(added.err());
         }
         if let Some(problems) = problems.into_iter().reduce(Diagnostics::and) {
             return Err(problems.into());
         }
-        observed.places.extend(reading_places);
+        observed.places.extend(taken.places);
         Ok(observed)
     }
 
@@ -148,7 +160,7 @@ impl Observations {
         number: usize,
         parameters: &[Parameter],
         folder: &Path,
-        reading_places: &mut Vec<Place>,
+        taken: &mut Taken,
     ) -> Result<(), Diagnostics> {
         let Entry {
             content,
@@ -179,8 +191,12 @@ impl Observations {
                 return Ok(());
             }
             Content::Film(drops) => {
-                let fitted = drops.fitted(&scene, folder);
-                (fitted.map_err(|problems| place.problems(problems))?, 1.0)
+                let fitted = drops.fitted(&scene, folder, &mut taken.films);
+                let filmed = fitted.map_err(|problems| place.problems(problems))?;
+                let remarks = filmed.remarks.iter();
+                self.film_remarks
+                    .extend(remarks.map(|remark| format!("film {number}: {remark}")));
+                (filmed.reduced, 1.0)
             }
             Content::RollOut(roll) => (roll.reduce(&scene), roll.excess()),
             Content::Tilt(tilt) => (tilt.reduce(&scene), tilt.excess()),
@@ -190,7 +206,7 @@ impl Observations {
         };
         let kind = kind.expect("a measurement has a kind");
         self.take(kind, number, reduced, (&scene, parameters), &place)?;
-        reading_places.resize(self.readings.len(), place);
+        taken.places.resize(self.readings.len(), place);
         Ok(())
     }
 

@@ -40,7 +40,9 @@ fn on_measured(observed: &Observations) -> impl Iterator<Item = String> {
             reading.name, reading.excess
         )
     });
-    counted.chain(readings)
+    counted
+        .chain(readings)
+        .chain(observed.film_remarks.iter().cloned())
 }
 
 /// Remarks on counts that tell less than they could, because the fit of their probabilities is not exact enough.

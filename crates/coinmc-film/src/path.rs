@@ -74,7 +74,7 @@ fn continue_flight(path: &mut Path, last: &State, model: &Model, at: &[f64]) {
 }
 
 /// Height of the lowest corner.
-fn clearance(coin: &Coin, z: f64, theta: f64) -> f64 {
+pub(crate) fn clearance(coin: &Coin, z: f64, theta: f64) -> f64 {
     let (sin, cos) = libm::sincos(theta);
     z - coin.radius_m() * sin.abs() - 0.5 * coin.height_m() * cos.abs()
 }

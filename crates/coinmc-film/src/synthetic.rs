@@ -3,7 +3,7 @@
 use crate::drop::{FilmedDrop, Frame, wrapped};
 use crate::law::Model;
 use crate::parameter::Shared;
-use crate::path::{Start, path};
+use crate::path::{Start, clearance, path};
 use coinmc_core::{Philox4x64, inverse_normal_cdf, unit_interval};
 
 /// A drop and how it is filmed. All noise is drawn from the seed.
@@ -57,13 +57,17 @@ impl Default for Synthetic {
 
 impl Synthetic {
     /// The film of the motion that the law predicts, up to the end of the toss and the flight that
-    /// follows it. `None` if the values are far out of range.
+    /// follows it. `None` if the values are far out of range, or the coin begins in the ground.
     pub fn film(&self, model: &Model) -> Option<FilmedDrop> {
         // at least one frame, and a bound against wrong input
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let frames = (self.duration_s * self.rate_hz).clamp(0.0, 99_999.0) as usize + 1;
         let times: Vec<f64> = (0..frames).map(|i| i as f64 / self.rate_hz).collect();
         let start: Start = self.start;
+        let is_finite = start.iter().all(|number| number.is_finite());
+        if !is_finite || clearance(&model.coin, start[2], start[4]) < 0.0 {
+            return None;
+        }
         let path = path(model, &self.shared.of(model.law), &start, &times)?;
         let noise = [
             self.position_noise_m,
@@ -97,3 +101,24 @@ impl Synthetic {
 
 /// Second word of the key, which separates films from tosses with the same seed.
 const FILM: u64 = 0x6669_6c6d;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::tests::model;
+
+    /// A coin of radius 10 mm and height 10 mm stands at 10 mm and lies at 5 mm.
+    #[test]
+    fn a_film_begins_above_the_ground() {
+        let film = |place: usize, value: f64| {
+            let mut film = Synthetic::default();
+            film.start = [0.0, 0.1, 0.2, 0.0, 0.0, 0.0];
+            film.start[place] = value;
+            film.film(&model())
+        };
+        assert!(film(2, 5.001e-3).is_some());
+        for (place, value) in [(2, 4.999e-3), (2, -1.0), (1, f64::INFINITY), (0, f64::NAN)] {
+            assert!(film(place, value).is_none(), "{place} {value}");
+        }
+    }
+}

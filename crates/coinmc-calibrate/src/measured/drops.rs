@@ -7,9 +7,10 @@ use coinmc_core::schema::{
 };
 use coinmc_core::{Scene, Surface};
 use coinmc_film::text::{self, Choice};
-use coinmc_film::{FilmedDrop, Law as FlatLaw, MAX_DROPS, Model, Options, Shared, fit};
+use coinmc_film::{
+    FilmedDrop, Fit, Law as FlatLaw, MAX_DROPS, Model, Options, Remark, Shared, fit,
+};
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 /// Files of drops.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +25,13 @@ const LAWS: [(&str, FlatLaw); 2] = [
     ("moreau", FlatLaw::Moreau),
     ("chatterjee-ruina", FlatLaw::ChatterjeeRuina),
 ];
+
+/// What filmed drops say.
+pub(crate) struct Filmed {
+    pub(crate) reduced: Vec<Reduced>,
+    /// What casts doubt on it.
+    pub(crate) remarks: Vec<String>,
+}
 
 impl Drops {
     pub(crate) fn schema() -> TableKind {
@@ -74,18 +82,25 @@ impl Drops {
         })
     }
 
-    /// Reads and fits the drops; files are sought from the folder of the config.
+    /// Reads and fits the drops; files are sought from the folder of the config. `seen` are those of the tables before,
+    /// to which these are added: a drop given twice would count as two.
     ///
     /// # Errors
     /// What is wrong with each file, or why there is no fit.
-    pub(crate) fn fitted(&self, scene: &Scene, folder: &Path) -> Result<Vec<Reduced>, Vec<String>> {
+    pub(crate) fn fitted(
+        &self,
+        scene: &Scene,
+        folder: &Path,
+        seen: &mut Vec<PathBuf>,
+    ) -> Result<Filmed, Vec<String>> {
         let mut drops: Vec<FilmedDrop> = vec![];
         let mut problems: Vec<String> = vec![];
         for file in &self.files {
-            match read(file, folder) {
+            match read(file, folder, seen) {
                 Ok(drop) => drops.push(drop),
                 Err(problem) => problems.push(problem),
             }
+            seen.push(folder.join(file));
         }
         if !problems.is_empty() {
             return Err(problems);
@@ -126,34 +141,41 @@ impl Drops {
             let nothing = "these drops determine neither restitution nor friction";
             return Err(vec![nothing.to_owned()]);
         }
-        Ok(determined)
+        Ok(Filmed {
+            reduced: determined,
+            remarks: remarks(&fitted),
+        })
     }
 
     pub(crate) const KIND: Kind = Kind::Film;
 }
 
+/// What casts doubt on a fit. Remedies that only `coinmc film fit` has are put in its words.
+fn remarks(fitted: &Fit) -> Vec<String> {
+    let words = |remark: &Remark| match remark {
+        Remark::Outliers { .. } => format!("{remark} of `coinmc film fit`"),
+        _ => remark.to_string(),
+    };
+    fitted.remarks.iter().map(words).collect()
+}
+
 /// Reads a file from a folder, or says in a line what is wrong with it.
-fn read(file: &Path, folder: &Path) -> Result<FilmedDrop, String> {
+fn read(file: &Path, folder: &Path, seen: &[PathBuf]) -> Result<FilmedDrop, String> {
     if file.as_os_str().is_empty() {
         return Err("`files` has an empty name".to_owned());
     }
     let path = folder.join(file);
     let name = path.display().to_string();
-    let bytes = bytes_of(&path).map_err(|error| format!("{name}: {error}"))?;
+    if let Some(other) = text::given_before(&path, seen) {
+        let other = other.display();
+        return Err(format!(
+            "{name}: this is the same file as {other}: give each film once"
+        ));
+    }
+    let bytes = text::bytes_of(&path).map_err(|error| format!("{name}: {error}"))?;
     match text::read(&name, &bytes, &Choice::default()) {
         Ok(footage) => Ok(footage.drop),
         Err(problems) => Err(in_a_line(problems.problems())),
-    }
-}
-
-/// The bytes of a file. A config names no pipe, which would wait for somebody to write, and no device, which need not
-/// end.
-fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
-    let kind = fs::metadata(path)?;
-    if kind.is_file() || kind.is_dir() {
-        text::bytes_of(path)
-    } else {
-        Err(io::Error::other("it is not a plain file"))
     }
 }
 

@@ -31,14 +31,29 @@ impl Tilt {
     }
 
     pub(crate) fn read(values: &Values) -> Result<Self, ReadError> {
-        Ok(Self {
+        let tilt = Self {
             angles_deg: values.numbers("angle_deg")?.to_vec(),
             error_deg: values.number("angle_error_deg")?,
-        })
+        };
+        let (mean, error) = (tilt.mean_deg(), tilt.mean_error_deg());
+        if mean + error >= 90.0 {
+            let message = format!(
+                "the mean angle of {mean:.4} degrees and its standard error of {error:.2} reach 90 degrees, where no \
+                 friction is large enough: its error must be smaller"
+            );
+            return Err(ReadError::new(message).at("angle_deg"));
+        }
+        Ok(tilt)
     }
 }
 
 impl Tilt {
+    /// The standard error of the mean.
+    fn mean_error_deg(&self) -> f64 {
+        let n = self.angles_deg.len() as f64;
+        self.excess() * self.error_deg / n.sqrt()
+    }
+
     fn mean_deg(&self) -> f64 {
         self.angles_deg.iter().sum::<f64>() / self.angles_deg.len() as f64
     }
@@ -48,11 +63,10 @@ impl Reduce for Tilt {
     const KIND: Kind = Kind::Tilt;
 
     fn reduce(&self, _: &Scene) -> Vec<Reduced> {
-        let n = self.angles_deg.len() as f64;
         vec![Reduced {
             law: Law::SlidingAngle,
             value: self.mean_deg(),
-            absolute: self.excess() * self.error_deg / n.sqrt(),
+            absolute: self.mean_error_deg(),
             relative: 0.0,
         }]
     }

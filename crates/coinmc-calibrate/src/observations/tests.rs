@@ -189,3 +189,47 @@ fn a_table_with_a_sweep_of_its_own_is_refused_before_those_after_it() {
     let told = message.matches("one scene, but sweeps ratio").count();
     assert_eq!(told, 1, "{message}");
 }
+
+/// The tangent has no value beyond 90 degrees, and so no error there.
+#[test]
+fn an_error_that_reaches_ninety_degrees_is_refused() {
+    let wood = "{ material = 'wood' }";
+    let tilt = |readings: &str| parsed(wood, &format!("[[tilt]]\n{readings}"));
+    for readings in [
+        "angle_deg = 75\nangle_error_deg = 20",
+        "angle_deg = 89.999\nangle_error_deg = 45",
+        "angle_deg = [88.9, 89.9]\nangle_error_deg = 1",
+    ] {
+        let message = tilt(readings).unwrap_err().to_string();
+        assert!(message.contains("reach 90 degrees"), "{message}");
+    }
+    assert!(tilt("angle_deg = 75\nangle_error_deg = 14.9").is_ok());
+    let message = tilt("angle_deg = []").unwrap_err().to_string();
+    assert!(message.contains("at least one number"), "{message}");
+}
+
+/// The examples' film, of a law that is not theirs: what its fit says of itself is passed on.
+#[test]
+fn doubts_of_a_film_are_passed_on() {
+    let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
+    let film = |files: &str| {
+        let text = format!(
+            "coin.ratio = 1\ncoin.radius_m = 0.01\nsurface.material = 'wood'\nlaunch.preset = 'hand'\n\
+             engine.volumetric = {{}}\n{files}"
+        );
+        Observations::parse("inline", &text, &[], examples.as_ref())
+    };
+    let observed = film("[[film]]\nfiles = ['drop-film.txt']").unwrap();
+    let remark = &observed.film_remarks[0];
+    assert!(
+        remark.starts_with("film 1: residuals of x_m are correlated"),
+        "{remark}"
+    );
+    for twice in [
+        "[[film]]\nfiles = ['drop-film.txt', './drop-film.txt']",
+        "[[film]]\nfiles = ['drop-film.txt']\n[[film]]\nfiles = ['drop-film.txt']",
+    ] {
+        let message = film(twice).unwrap_err().to_string();
+        assert!(message.contains("give each film once"), "{message}");
+    }
+}

@@ -68,7 +68,7 @@ impl Spread {
 /// Second word of the key of random steps.
 const HOPS: u64 = 0x686f_7073;
 
-/// Linear theory at the problem's point.
+/// Linear theory at the problem's point; `None` if the frames determine no unknown at all.
 pub(crate) fn spread(problem: &Problem) -> Option<Spread> {
     let deviations = problem.deviations()?;
     let matrix = problem.derivatives()?;
@@ -77,6 +77,10 @@ pub(crate) fn spread(problem: &Problem) -> Option<Spread> {
         .filter(|&j| is_determined(problem, j, normal[(j, j)]))
         .collect();
     let root = loop {
+        // as for a film in wrong units, whose coin is through the floor all along
+        if kept.is_empty() {
+            return None;
+        }
         match root_of_inverse(&normal, &kept) {
             Ok(root) => break root,
             Err(weakest) => {

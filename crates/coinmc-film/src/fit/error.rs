@@ -48,7 +48,18 @@ pub enum FitError {
         /// The law.
         law: &'static str,
     },
+    /// As many values are fitted as there are points, or more.
+    #[error(
+        "{fitted} fitted values take more points than the {points} that the law can tell: check coin, \
+         units, angle and floor, or fit more of the film"
+    )]
+    TooFew {
+        /// Number of points that count.
+        points: usize,
+        /// Number of fitted values.
+        fitted: usize,
+    },
     /// The computation failed at the minimum.
-    #[error("the fit failed: check coin, units and angle")]
+    #[error("the fit failed: check coin, units, angle and floor")]
     Lost,
 }

@@ -154,6 +154,9 @@ pub fn fit_all(
     for minimum in &mut minima {
         minimum.weighing.frames.clone_from(&shortest);
     }
+    for minimum in &minima {
+        check_points(minimum)?;
+    }
     minima
         .into_iter()
         .map(|minimum| finish(minimum, options).ok_or(FitError::Lost))
@@ -192,6 +195,16 @@ fn check(task: &Task, options: &Options) -> Result<(), FitError> {
         return Err(FitError::TooLarge { frames });
     }
     Ok(())
+}
+
+/// Whether more points count than values are fitted: else any law fits them, and none can be told from another.
+fn check_points(minimum: &Problem) -> Result<(), FitError> {
+    let points = minimum.deviations().ok_or(FitError::Lost)?;
+    let fitted = result::fitted(minimum, &points);
+    match points.len() {
+        many if many > fitted => Ok(()),
+        points => Err(FitError::TooFew { points, fitted }),
+    }
 }
 
 fn flights(task: &Task, noise: &[f64; 3]) -> Result<Vec<Flight>, FitError> {

@@ -141,7 +141,7 @@ pub(super) fn report(
         drops: drops(problem, spread, options)?,
         log_likelihood: log_likelihood(problem.task.loss, &deviations),
         n: deviations.len(),
-        fitted: problem.unknowns.len() + noise.len(),
+        fitted: fitted(problem, &deviations),
         noise,
         confidence: options.confidence,
         remarks: Vec::new(),
@@ -149,6 +149,13 @@ pub(super) fn report(
     };
     fit.remarks = remarks(&fit, problem.task.loss);
     Some(fit)
+}
+
+/// Number of fitted values: the unknowns, and the noise of each coordinate.
+pub(super) fn fitted(problem: &Problem, deviations: &[Deviation]) -> usize {
+    let noises = Coordinate::ALL.into_iter();
+    let noises = noises.filter(|coordinate| !of(deviations, *coordinate).is_empty());
+    problem.unknowns.len() + noises.count()
 }
 
 fn estimates(

@@ -6,9 +6,6 @@ use super::dialect::{Cell, Delimiter, Dialect, cell};
 use super::encoding::decoded;
 use super::header::{Column, Header, header, is_idle};
 use crate::drop::{FilmedDrop, Frame, MAX_FRAMES, wrapped};
-use std::fs::File;
-use std::io::{self, Read};
-use std::path::Path;
 
 /// Longest file, bytes.
 pub const MAX_BYTES: usize = 16 << 20;
@@ -30,27 +27,6 @@ pub struct Footage {
     pub used: Vec<String>,
     /// Numbers of frames in which x, z and θ are not marked.
     pub missing: [usize; 3],
-}
-
-/// The bytes of a file for [`read`]: at most one more than [`MAX_BYTES`], which shows that it is too long.
-///
-/// # Errors
-/// That the file cannot be read, or is a directory.
-///
-/// # Example
-/// ```
-/// use coinmc_film::text::bytes_of;
-/// let error = bytes_of("no/such/file".as_ref()).unwrap_err();
-/// assert_eq!(error.kind(), std::io::ErrorKind::NotFound);
-/// ```
-pub fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
-    let file = File::open(path)?;
-    if file.metadata()?.is_dir() {
-        return Err(io::ErrorKind::IsADirectory.into());
-    }
-    let mut bytes = Vec::new();
-    file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }
 
 /// Parses a file, which messages call `name`.
@@ -83,6 +59,7 @@ pub fn read(name: &str, bytes: &[u8], choice: &Choice) -> Result<Footage, Diagno
         );
     };
     let crlf = text.contains("\r\n");
+    let text = with_line_feeds(text);
     let lines: Vec<&str> = text.lines().collect();
     let mut problems = Problems::new(name, &lines);
     if let Some(long) = lines.iter().position(|line| line.len() > MAX_LINE) {
@@ -123,8 +100,11 @@ pub fn read(name: &str, bytes: &[u8], choice: &Choice) -> Result<Footage, Diagno
     };
     let frames = rows.read(&lines);
     if frames.len() < 2 && problems.is_empty() {
-        let message = "there are no numbers below the column names".to_owned();
-        problems.add(header.line, 0..0, message, None);
+        let message = match frames.len() {
+            0 => "there are no numbers below the column names",
+            _ => "one frame is no film: below the column names there is but one line of numbers",
+        };
+        problems.add(header.line, 0..0, message.to_owned(), None);
     }
     if !problems.is_empty() {
         return Err(problems.finish());
@@ -150,6 +130,14 @@ pub fn read(name: &str, bytes: &[u8], choice: &Choice) -> Result<Footage, Diagno
             .collect(),
         missing,
     })
+}
+
+/// A text whose lines end with carriage returns alone, as old Macs wrote them, with line feeds instead.
+fn with_line_feeds(text: String) -> String {
+    if text.contains('\n') {
+        return text;
+    }
+    text.replace('\r', "\n")
 }
 
 /// The columns to read, the time first.

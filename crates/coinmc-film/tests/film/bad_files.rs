@@ -34,10 +34,13 @@ fn headers_are_explained() {
             "the unit `pixel` is not known",
         ),
         ("t\ty\t\u{3b8}\n", "no numbers below"),
+        ("t\ty\t\u{3b8}\n0\t0.2\t1\n", "one frame is no film"),
     ] {
         let found = problems(text.as_bytes());
         assert!(found[0].message.contains(what), "{text:?}: {found:?}");
-        assert!(found[0].help.is_some() || what == "no numbers below");
+        assert!(
+            found[0].help.is_some() || ["no numbers below", "one frame is no film"].contains(&what)
+        );
     }
 }
 

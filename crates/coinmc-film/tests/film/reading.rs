@@ -64,6 +64,14 @@ fn two_points_make_a_centre_and_an_angle() {
     );
 }
 
+/// Carriage returns alone end lines, too.
+#[test]
+fn lines_of_old_macs_are_read() {
+    let text = "t,y,angle\n0,0.25,1\n0.5,0.2,2\n";
+    let of = |text: &str| read("f", text.as_bytes(), &Choice::default()).unwrap();
+    assert_eq!(of(&text.replace('\n', "\r")), of(text));
+}
+
 #[test]
 fn commas_semicolons_blanks_marks_and_latin_1() {
     let point = "t,y,angle\n0,0.25,1\n0.5,,2\n";

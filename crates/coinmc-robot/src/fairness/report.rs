@@ -17,8 +17,8 @@ pub struct FairnessReport {
     pub done: u64,
     /// Throws without a result; they are in no check, and bias all checks unless they are few.
     pub voids: u64,
-    /// Fraction of void throws, with its interval.
-    pub void_share: Interval,
+    /// Fraction of void throws, with its interval; `None` before the first throw.
+    pub void_share: Option<Interval>,
     /// The checks.
     pub checks: Vec<Check>,
     /// Checks that were not made, and why.
@@ -48,7 +48,7 @@ pub struct Check {
     /// Value for a fair robot.
     pub expected: f64,
     /// Measured value: a fraction with its interval (Clopper–Pearson), or the Kolmogorov–Smirnov
-    /// distance D with the value that 95 % of fair samples do not exceed.
+    /// distance D of the sample with the interval of that of its distribution.
     pub found: Interval,
     /// Probability that a fair robot deviates at least as much.
     pub p_value: f64,
@@ -68,26 +68,26 @@ pub fn fairness(experiment: &Experiment, history: &History, die: bool) -> Fairne
     let [heads, tails, side] = Face::ALL.map(count);
     let n = done.len() as u64;
     let voids = history.throws().iter().filter(|t| is_void(t)).count() as u64;
-    let mut checks = vec![share(
-        "heads among heads and tails",
-        heads,
-        heads + tails,
-        0.5,
-    )];
-    checks.push(difference(heads, tails, n));
+    let mut found = vec![
+        share("heads among heads and tails", heads, heads + tails, 0.5),
+        difference(heads, tails, n),
+    ];
     if die {
-        checks.push(share("heads, a face of six", heads, n, 1.0 / 6.0));
-        checks.push(share("tails, a face of six", tails, n, 1.0 / 6.0));
-        checks.push(share("side, four faces of six", side, n, 2.0 / 3.0));
+        found.push(share("heads, a face of six", heads, n, 1.0 / 6.0));
+        found.push(share("tails, a face of six", tails, n, 1.0 / 6.0));
+        found.push(share("side, four faces of six", side, n, 2.0 / 3.0));
     }
-    let mut remarks = Vec::new();
     let (spin, angle) = experiment.marginals();
     let achieved = |of: fn(&Throw) -> Option<f64>| done.iter().filter_map(|t| of(t)).collect();
     for (name, marginal, sample) in [
         ("achieved spin, rev/s", spin, achieved(spin_of)),
         ("achieved start angle, degrees", angle, achieved(angle_of)),
     ] {
-        match uniformity(name, marginal, sample) {
+        found.push(uniformity(name, marginal, sample));
+    }
+    let (mut checks, mut remarks) = (Vec::new(), Vec::new());
+    for found in found {
+        match found {
             Ok(check) => checks.push(check),
             Err(remark) => remarks.push(remark),
         }
@@ -95,7 +95,7 @@ pub fn fairness(experiment: &Experiment, history: &History, die: bool) -> Fairne
     FairnessReport {
         done: n,
         voids,
-        void_share: exact_interval(voids, n + voids),
+        void_share: (n + voids > 0).then(|| exact_interval(voids, n + voids)),
         checks,
         remarks,
     }
@@ -116,7 +116,7 @@ pub fn die_check(counts: &[u64]) -> Vec<Check> {
     let mut checks: Vec<Check> = counts
         .iter()
         .enumerate()
-        .map(|(face, count)| share(&format!("face {}", face + 1), *count, n, p))
+        .filter_map(|(face, count)| share(&format!("face {}", face + 1), *count, n, p).ok())
         .collect();
     let furthest = checks
         .iter()
@@ -135,8 +135,12 @@ pub fn die_check(counts: &[u64]) -> Vec<Check> {
     checks
 }
 
-fn share(name: &str, count: u64, n: u64, p: f64) -> Check {
-    Check {
+/// The check of a share, or a remark where there is nothing to have a share of.
+fn share(name: &str, count: u64, n: u64, p: f64) -> Result<Check, String> {
+    if n == 0 {
+        return Err(nothing(name));
+    }
+    Ok(Check {
         name: name.to_owned(),
         test: "exact binomial",
         n,
@@ -144,18 +148,22 @@ fn share(name: &str, count: u64, n: u64, p: f64) -> Check {
         found: exact_interval(count, n),
         p_value: Binomial::new(n, p).two_sided_p_value(count),
         power: Binomial::power(n, p, SIGNIFICANCE),
-    }
+    })
+}
+
+fn nothing(name: &str) -> String {
+    format!("{name}: nothing to check")
 }
 
 /// Heads minus tails as a fraction of all throws. Given the total of both, the number of heads is
 /// binomial, so test and interval are those of heads among both, in other units.
-fn difference(heads: u64, tails: u64, n: u64) -> Check {
+fn difference(heads: u64, tails: u64, n: u64) -> Result<Check, String> {
+    let name = "heads minus tails, of all throws";
     let both = heads + tails;
-    let share = share("", heads, both, 0.5);
+    let share = share(name, heads, both, 0.5)?;
     let scale = both as f64 / n as f64;
     let found = |p: f64| (2.0 * p - 1.0) * scale;
-    Check {
-        name: "heads minus tails, of all throws".to_owned(),
+    Ok(Check {
         test: "exact conditional",
         n,
         expected: 0.0,
@@ -164,12 +172,12 @@ fn difference(heads: u64, tails: u64, n: u64) -> Check {
             lo: found(share.found.lo),
             hi: found(share.found.hi),
         },
-        p_value: share.p_value,
         power: Power {
             at_80: 2.0 * scale * share.power.at_80,
             at_95: 2.0 * scale * share.power.at_95,
         },
-    }
+        ..share
+    })
 }
 
 fn exact_interval(count: u64, n: u64) -> Interval {
@@ -186,7 +194,7 @@ fn uniformity(name: &str, marginal: Marginal, mut sample: Vec<f64>) -> Result<Ch
         return Err(format!("{name}: not uniform in the config, not checked"));
     };
     if sample.is_empty() || from >= to {
-        return Err(format!("{name}: nothing to check"));
+        return Err(nothing(name));
     }
     let n = sample.len() as u64;
     let d = distance(&mut sample, |x| ((x - from) / (to - from)).clamp(0.0, 1.0));
@@ -197,10 +205,11 @@ fn uniformity(name: &str, marginal: Marginal, mut sample: Vec<f64>) -> Result<Ch
         test: "Kolmogorov-Smirnov",
         n,
         expected: 0.0,
+        // no distribution differs from the sample by more than that, but for one sample of twenty
         found: Interval {
             value: d,
-            lo: 0.0,
-            hi: critical,
+            lo: (d - critical).max(0.0),
+            hi: (d + critical).min(1.0),
         },
         p_value: kolmogorov_p_value(n, d),
         power: kolmogorov::power(n),
@@ -223,4 +232,38 @@ fn angle_of(throw: &Throw) -> Option<f64> {
 
 fn is_void(throw: &Throw) -> bool {
     matches!(throw.resolution, Some(Resolution::Void(_)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Without throws, or with all on the side, there is no share to check, and none is stated.
+    #[test]
+    fn nothing_is_stated_of_no_throws() {
+        for n in [0, 5] {
+            let told = difference(0, 0, n).unwrap_err();
+            assert_eq!(told, "heads minus tails, of all throws: nothing to check");
+        }
+        assert!(share("heads", 0, 0, 0.5).is_err());
+        assert!(share("heads", 0, 1, 0.5).is_ok());
+    }
+
+    /// The interval of a distance has the distance in it: 0.0565 is critical for 576 throws (1.358/sqrt(n), tables).
+    #[test]
+    fn the_interval_of_a_distance_holds_it() {
+        let of = |scale: f64| {
+            let sample = (0..576).map(|i| scale * (f64::from(i) + 0.5) / 576.0);
+            let uniform = Marginal::Uniform { from: 0.0, to: 1.0 };
+            uniformity("spin", uniform, sample.collect()).unwrap().found
+        };
+        let near = of(1.0);
+        assert!(near.lo == 0.0 && near.value < 0.001 && (near.hi - 0.057).abs() < 2e-3);
+        let far = of(0.8);
+        assert!((far.value - 0.2).abs() < 1e-2, "{far:?}");
+        for arm in [far.value - far.lo, far.hi - far.value] {
+            assert!((arm - 0.0565).abs() < 1e-3, "{far:?}");
+        }
+        assert_eq!(of(1e-9).hi, 1.0);
+    }
 }

@@ -12,6 +12,12 @@ use thiserror::Error;
 /// Greatest length of a journal, bytes: 4 million throws, three years of a robot's work.
 const MAX_BYTES: u64 = 1 << 30;
 
+/// Bytes that are read at once.
+const PIECE: u64 = 1 << 16;
+
+/// Most bytes without an end of a line: a torn line, and what a file system may leave after a loss of power.
+const MOST_OPEN: usize = 1 << 20;
+
 /// A journal that is locked for appending by this process.
 #[derive(Debug)]
 pub struct Journal {
@@ -301,18 +307,36 @@ fn lock_journal(file: &File, path: &Path) -> Result<(), JournalError> {
     })
 }
 
-/// All bytes, if they are no more than `most`.
+/// All bytes, if they are no more than `most`. Of a line that is far too long for a journal only its beginning is read,
+/// and ended there, so that [`parse`] finds it damaged: such a file could fill the memory.
 fn read_bounded(file: &mut impl Read, most: u64, path: &Path) -> Result<Vec<u8>, JournalError> {
     let mut bytes = Vec::new();
-    file.take(most + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|error| io_error("read", path, error))?;
-    if bytes.len() as u64 > most {
-        return Err(JournalError::TooLong {
-            path: path.to_owned(),
-        });
+    // bytes since the last end of a line
+    let mut open = 0;
+    loop {
+        let before = bytes.len();
+        file.by_ref()
+            .take(PIECE)
+            .read_to_end(&mut bytes)
+            .map_err(|error| io_error("read", path, error))?;
+        if bytes.len() as u64 > most {
+            return Err(JournalError::TooLong {
+                path: path.to_owned(),
+            });
+        }
+        let piece = bytes.get(before..).unwrap_or_default();
+        if piece.is_empty() {
+            return Ok(bytes);
+        }
+        open = match piece.iter().rposition(|byte| *byte == b'\n') {
+            Some(end) => piece.len() - end - 1,
+            None => open + piece.len(),
+        };
+        if open > MOST_OPEN {
+            bytes.push(b'\n');
+            return Ok(bytes);
+        }
     }
-    Ok(bytes)
 }
 
 /// The last of complete lines, with its end.
@@ -355,6 +379,24 @@ mod tests {
         // even if there is no end
         let endless = read_bounded(&mut io::repeat(0), 3, Path::new("/dev/zero"));
         assert!(matches!(endless, Err(JournalError::TooLong { .. })));
+    }
+
+    /// Of a sparse file of gigabytes no more than a megabyte is read, and it is damaged where its line is too long.
+    #[test]
+    fn a_line_without_an_end_is_not_read_to_its_end() {
+        let zeros = |before: &'static [u8]| {
+            let mut file = before.chain(io::repeat(0));
+            let bytes = read_bounded(&mut file, MAX_BYTES, Path::new("journal.txt")).unwrap();
+            assert!(bytes.len() < MOST_OPEN + 2 * (1 << 16), "{}", bytes.len());
+            parse(&bytes).unwrap_err()
+        };
+        assert_eq!(zeros(b""), Damage::NotAJournal);
+        let (header, _) = LineChecksum::header(&Header {
+            plan_hash: "abc".to_owned(),
+            throws: 3,
+            experiment: 1,
+        });
+        assert_eq!(zeros(header.leak().as_bytes()), Damage::Line(2));
     }
 
     #[test]

@@ -51,7 +51,7 @@ fn measured(model: &Model, style: &Style) -> String {
             "{}: {} = {} ± {}",
             reading.name,
             reading.law.parameter().key(),
-            compact(three_digits(value)),
+            compact(shown_to(value, 0.5 * (high - low))),
             compact(two_digits(0.5 * (high - low)))
         )
     });
@@ -84,13 +84,32 @@ fn surface(model: &Model, calibration: &Calibration, style: &Style) -> String {
 
 fn row(prior: &Prior, summary: &Summary) -> Vec<String> {
     let number = |x: f64| compact(three_digits(x));
+    let fine = |x: f64| compact(shown_to(x, summary.hi - summary.lo));
+    let left = 100.0 * summary.contraction;
     vec![
         summary.parameter.key().to_owned(),
         format!("{} to {}", number(prior.low), number(prior.high)),
-        number(summary.median),
-        format!("[{}, {}]", number(summary.lo), number(summary.hi)),
-        format!("{:.0} %", 100.0 * summary.contraction),
+        fine(summary.median),
+        format!("[{}, {}]", fine(summary.lo), fine(summary.hi)),
+        match left {
+            small if small < 0.5 => format!("{} %", compact(two_digits(small))),
+            left => format!("{left:.0} %"),
+        },
     ]
+}
+
+/// A number rounded to three digits, or to as many as show two of what it is known to.
+fn shown_to(x: f64, width: f64) -> f64 {
+    let coarse = three_digits(x);
+    // about the place of the second digit of the width
+    let place = libm::floor(libm::log10(width)) - 1.0;
+    if x == 0.0 || !place.is_finite() || place >= libm::floor(libm::log10(x.abs())) - 2.0 {
+        return coarse;
+    }
+    // decimals of numbers near 1 and of those far below it; more than fifteen are not there
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let decimals = (-place).clamp(0.0, 18.0) as usize;
+    format!("{x:.decimals$}").parse().unwrap_or(coarse)
 }
 
 fn sources(model: &Model) -> impl Iterator<Item = String> {
@@ -240,4 +259,25 @@ fn listed(title: &str, lines: impl Iterator<Item = String>, style: &Style) -> St
 /// Two independent errors together.
 fn both(a: f64, b: f64) -> f64 {
     (a * a + b * b).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_has_the_digits_that_its_width_needs() {
+        for (x, width, shown) in [
+            (0.492_114, 0.000_36, 0.492_11),
+            (0.492_114, 0.1, 0.492),
+            (3.456_78e-5, 1e-5, 3.46e-5),
+            (3.456_78e-5, 2e-8, 3.456_8e-5),
+            (123.456, 0.12, 123.46),
+            (0.5, 0.0, 0.5),
+            (0.0, 1e-9, 0.0),
+            (0.5, f64::NAN, 0.5),
+        ] {
+            assert_eq!(shown_to(x, width), shown, "{x} {width}");
+        }
+    }
 }

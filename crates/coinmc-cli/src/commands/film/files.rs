@@ -99,21 +99,48 @@ impl Columns {
     /// Reads all files, or reports the problems of all of them.
     pub(super) fn read(&self, paths: &[PathBuf]) -> Result<Vec<Footage>, Failure> {
         let choice = self.choice();
-        let mut footage = Vec::new();
-        let mut problems: Option<Diagnostics> = None;
-        for path in paths {
-            match read(path, &choice) {
-                Ok(read) => footage.push(read),
-                Err(found) => match &mut problems {
-                    Some(problems) => problems.append(found),
-                    None => problems = Some(found),
-                },
+        gathered(paths.iter().map(|path| read(path, &choice)))
+    }
+
+    /// The same of different drops: a file that is given twice is a problem, too.
+    pub(super) fn read_once_each(&self, paths: &[PathBuf]) -> Result<Vec<Footage>, Failure> {
+        let choice = self.choice();
+        let each = paths.iter().enumerate().map(|(place, path)| {
+            match text::given_before(path, &paths[..place]) {
+                Some(other) => Err(given_twice(path, other)),
+                None => read(path, &choice),
             }
+        });
+        gathered(each)
+    }
+}
+
+fn given_twice(path: &Path, other: &Path) -> Diagnostics {
+    let message = format!(
+        "this is the same file as {}: give each film once",
+        other.display()
+    );
+    Diagnostics::of_file(&path.display().to_string(), message, None)
+}
+
+/// What was read, or all problems.
+fn gathered(
+    all: impl Iterator<Item = Result<Footage, Diagnostics>>,
+) -> Result<Vec<Footage>, Failure> {
+    let mut footage = Vec::new();
+    let mut problems: Option<Diagnostics> = None;
+    for read in all {
+        match read {
+            Ok(read) => footage.push(read),
+            Err(found) => match &mut problems {
+                Some(problems) => problems.append(found),
+                None => problems = Some(found),
+            },
         }
-        match problems {
-            Some(problems) => Err(Failure::Film(problems)),
-            None => Ok(footage),
-        }
+    }
+    match problems {
+        Some(problems) => Err(Failure::Film(problems)),
+        None => Ok(footage),
     }
 }
 

@@ -111,7 +111,7 @@ impl Fit {
         }
         let files = begin_new(self.out.iter().chain(&self.residuals))?;
         let (models, options) = self.task()?;
-        let footage = self.columns.read(&self.files)?;
+        let footage = self.columns.read_once_each(&self.files)?;
         let drops: Vec<_> = footage.into_iter().map(|footage| footage.drop).collect();
         let fits =
             fit_all(&models, &drops, &options).map_err(|error| Failure::Input(error.into()))?;

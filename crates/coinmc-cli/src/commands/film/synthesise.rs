@@ -111,7 +111,10 @@ impl Synthesise {
             missing: self.missing,
         };
         let drop = film.film(&model).ok_or_else(|| {
-            Failure::Input(anyhow!("such a drop cannot be simulated: check --start"))
+            Failure::Input(anyhow!(
+                "such a drop cannot be simulated: --start must be six numbers that are not far out of range, with \
+                 the coin above the surface"
+            ))
         })?;
         let dialect = Dialect {
             delimiter: match self.delimiter {

@@ -86,17 +86,19 @@ fn die(counts: &[u64]) -> Result<Vec<Check>, Failure> {
 }
 
 fn remarks(report: &FairnessReport) -> Vec<String> {
-    let share = &report.void_share;
-    let mut remarks = vec![format!(
-        "{} throws with a result, {} void ({:.2} %, at most {:.2} %): void throws can hide a bias \
-         as large as their fraction",
-        grouped(report.done),
-        grouped(report.voids),
-        100.0 * share.value,
-        100.0 * share.hi,
-    )];
-    remarks.extend(report.remarks.iter().cloned());
-    remarks
+    let throws = match &report.void_share {
+        Some(share) => format!(
+            "{} throws with a result, {} void ({:.2} %, at most {:.2} %): void throws can hide a bias \
+             as large as their fraction",
+            grouped(report.done),
+            grouped(report.voids),
+            100.0 * share.value,
+            100.0 * share.hi,
+        ),
+        None => "no throw has ended yet".to_owned(),
+    };
+    let remarks = report.remarks.iter().cloned();
+    std::iter::once(throws).chain(remarks).collect()
 }
 
 fn table(checks: &[Check], remarks: &[String], style: &Style) -> String {
@@ -113,10 +115,7 @@ fn table(checks: &[Check], remarks: &[String], style: &Style) -> String {
     ]);
     for check in checks {
         let found = &check.found;
-        let mut p_value = format!("{:.4}", check.p_value);
-        if check.p_value < 1e-4 {
-            p_value = format!("{:.1e}", check.p_value);
-        }
+        let mut p_value = p_value(check.p_value);
         if check.p_value <= SIGNIFICANCE {
             p_value += " *";
         }
@@ -152,6 +151,15 @@ fn table(checks: &[Check], remarks: &[String], style: &Style) -> String {
         ),
     };
     text
+}
+
+/// What is smaller than 1e-20 is not computed exactly.
+fn p_value(p: f64) -> String {
+    match p {
+        p if p < 1e-20 => "< 1e-20".to_owned(),
+        p if p < 1e-4 => format!("{p:.1e}"),
+        p => format!("{p:.4}"),
+    }
 }
 
 /// The detectable bias, if there is one.

@@ -4,9 +4,10 @@ use super::{aloft, at_the_truth, model};
 use crate::drop::{Coordinate, FilmedDrop};
 use crate::fit::covariance::is_determined;
 use crate::fit::problem::{Problem, Task, Unknown};
-use crate::fit::{FitError, Loss, MAX_DROPS, MAX_FRAMES, Options, check, fit};
-use crate::parameter::Parameter;
+use crate::fit::{FitError, Loss, MAX_DROPS, MAX_FRAMES, Options, check, check_points, fit};
+use crate::parameter::{Parameter, Shared};
 use crate::path::start_scales;
+use crate::synthetic::Synthetic;
 
 /// The units of the search are those of a coin that falls by its own size.
 #[test]
@@ -139,4 +140,54 @@ fn a_place_that_was_not_marked_is_not_fitted() {
     let coordinates: Vec<_> = fit.noise.iter().map(|noise| noise.coordinate).collect();
     assert_eq!(coordinates, [Coordinate::Z, Coordinate::Theta]);
     assert_eq!((fit.n, fit.fitted), (2 * 13, 5 + 2));
+}
+
+/// Of a film in wrong units, or with a wrong floor, the coin is through the floor from the beginning: no fit, and no panic.
+#[test]
+fn a_film_in_wrong_units_is_told_to_be_so() {
+    let film = |length: f64| {
+        let mut drop = Synthetic::default().film(&model()).expect("a film");
+        for frame in &mut drop.frames {
+            let [x, z, theta] = frame.seen;
+            let scaled = |value: Option<f64>| value.map(|value| length * value);
+            frame.seen = [scaled(x), scaled(z), theta];
+        }
+        drop
+    };
+    let wrong_floor = Options {
+        shared: Shared {
+            floor_m: 0.2,
+            ..Shared::default()
+        },
+        ..Options::default()
+    };
+    for (length, options) in [(1e-3, Options::default()), (1.0, wrong_floor)] {
+        let error = fit(&model(), &[film(length)], &options).unwrap_err();
+        assert!(error.to_string().contains("check coin, units"), "{error}");
+    }
+}
+
+/// As many points as fitted values are met by any law: of two frames, 6 points for a start of 6 numbers and 3 noises.
+#[test]
+fn more_points_are_needed_than_values_fitted() {
+    let drops = [aloft(1, 0.05)];
+    let task = Task::new(model(), &drops, Loss::Square);
+    let checked = |frames| {
+        let mut problem = at_the_truth(&task, &[]);
+        problem.weighing.frames = vec![frames];
+        check_points(&problem)
+    };
+    let few = |points| FitError::TooFew { points, fitted: 9 };
+    assert_eq!(checked(2), Err(few(6)));
+    assert_eq!(checked(3), Err(few(9)));
+    assert_eq!(checked(4), Ok(()));
+    let short = Options {
+        until_s: 1e-4,
+        ..Options::default()
+    };
+    let error = fit(&model(), &drops, &short).unwrap_err();
+    assert!(
+        matches!(error, FitError::TooFew { points: 3, .. }),
+        "{error}"
+    );
 }

@@ -34,7 +34,12 @@ impl Walker<'_> {
     /// A measured number, or several.
     pub(super) fn reals(&mut self, bounds: Bounds, node: &Node, path: &str) -> Checked {
         let items = match &node.value {
-            Value::List(items) if !items.is_empty() => items.as_slice(),
+            Value::List(items) if items.is_empty() => {
+                let message = format!("`{path}` is an empty list: at least one number is needed");
+                self.problems.add(node.span, message);
+                return Checked::invalid(node.span);
+            }
+            Value::List(items) => items.as_slice(),
             Value::Integer(_) | Value::Float(_) => std::slice::from_ref(node),
             _ => return self.wrong_type(node, path, "a number or a list of numbers"),
         };
