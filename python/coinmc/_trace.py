@@ -43,7 +43,7 @@ class Trace(ArrowTable):
     ----------
     samples : ndarray of `SAMPLE`
         The state at launch, at multiples of 1/rate, and at the end. States are computed by the
-        engine, never interpolated.
+        engine; only in contact with rough ground they are interpolated between its steps.
     events : ndarray of `EVENT`
         All events, including launch and end; times are exact.
     outcome : str

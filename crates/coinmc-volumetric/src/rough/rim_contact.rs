@@ -361,7 +361,10 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             let share = t / time;
             let mix = |a: f64, b: f64| a + share * (b - a);
             let (a, b) = (before.0.columns(), after.0.columns());
-            let motion = Motion::from_columns(&std::array::from_fn(|i| mix(a[i], b[i])));
+            let mut motion = Motion::from_columns(&std::array::from_fn(|i| mix(a[i], b[i])));
+            // the axis stays a unit vector
+            let length = (motion.sin * motion.sin + motion.cos * motion.cos).sqrt();
+            (motion.sin, motion.cos) = (motion.sin / length, motion.cos / length);
             let (a, b) = (before.1.columns(), after.1.columns());
             let spin = Spin::from_columns(&std::array::from_fn(|i| mix(a[i], b[i])));
             (motion, spin)

@@ -3,7 +3,7 @@
 use crate::common::{Tosser, flights};
 use coinmc_core::{Coin, Engine, Face, Launch, Preset, Roughness, Scene, Surface};
 use coinmc_oracle::Start;
-use coinmc_testkit::{Dice, conformance, hand_at, preset_launch, stream};
+use coinmc_testkit::{Dice, Sampler, conformance, hand_at, preset_launch, stream};
 use coinmc_volumetric::{Lanes, Law, Settings};
 
 const RADIUS_M: f64 = 0.0116;
@@ -263,6 +263,27 @@ fn a_coin_is_shown_in_one_continuous_motion() {
         }
         assert!(flown > 200, "{flown}");
     }
+}
+
+/// Samples between two steps lie on a straight line in the space of states; the axis is a unit vector all the same.
+#[test]
+fn the_axis_of_a_sample_is_a_unit_vector() {
+    let scene = scene(0.85, 0.05, 3e-3);
+    let engine = Tosser::new(&scene);
+    let mut seen = 0;
+    for toss in 0..10 {
+        let mut sampler = Sampler::new(400.0);
+        engine.observe(
+            &preset_launch(Preset::Clean, &scene, 319, toss),
+            &mut sampler,
+        );
+        for sample in &sampler.samples {
+            let off = sample.state.axis.norm() - 1.0;
+            assert!(off.abs() < 1e-12, "toss {toss}: {off:e}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 1_000, "{seen}");
 }
 
 /// On slopes as steep as these the upper rim of a coin may touch first while it leans far from upright, and the lower
