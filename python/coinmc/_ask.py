@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from coinmc import _lib
+from coinmc._launches import plain
 from coinmc._progress import shown_digits
 
 __all__ = ["Asked", "ask"]
@@ -112,7 +113,7 @@ def ask(
     ((3,), True)
     """
     columns = np.broadcast_arrays(
-        *(np.asarray(values, dtype=float) for values in (ratio, *numbers.values()))
+        *(np.asarray(plain(values), dtype=float) for values in (ratio, *numbers.values()))
     )
     shape = columns[0].shape
     rows = np.stack([column.ravel() for column in columns], axis=-1)

@@ -23,7 +23,8 @@ class Scene(NamedTuple):
     radius_m, height_m : float
         R and H, m.
     mass_kg : float
-        Mass, kg. It affects no probability.
+        Mass, kg. It affects a probability only with laws of impact of absolute units
+        (docs/methods/impact-laws.md).
     gravity_m_s2 : float
         Acceleration of gravity, m/s².
     """

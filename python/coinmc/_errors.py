@@ -45,9 +45,6 @@ class _Diagnosed(Error, ValueError):
         super().__init__(message)
         self.problems: list[Problem] = [Problem(*problem) for problem in problems]
 
-    def __reduce__(self) -> tuple[Any, ...]:  # exceptions can be pickled
-        return type(self), (str(self), [tuple(problem) for problem in self.problems])
-
 
 def advised(error: "ConfigError", instead: dict[str, str]) -> "ConfigError":
     """Add to the error which arguments take the place of tables that are missing."""

@@ -14,7 +14,7 @@ __all__ = ["LAUNCH", "STATE", "LaunchesLike", "launches"]
 
 #: The coin at one instant: position of the centre (m; z is its height above the surface), velocity
 #: (m/s), axis (unit vector out of the heads face), angular velocity (rad/s); each x, y, z in the
-#: laboratory frame, z up.
+#: laboratory frame, z up, with the origin in the middle of the table.
 STATE = np.dtype(
     [
         ("position_m", "f8", 3),

@@ -96,7 +96,10 @@ class Tosses(ArrowTable):
 
     @property
     def final(self) -> NDArray[np.void]:
-        """State of the coin when each toss ended, dtype `STATE`, shape (n,). See `time_s`."""
+        """State of the coin when each toss ended, dtype `STATE`, shape (n,). See `time_s`.
+
+        It is in the laboratory frame on a tilted table, too, where traces are in axes of the table.
+        """
         return self._ends[1]
 
     @property
@@ -204,8 +207,9 @@ def toss(
         Number of tosses; by default the number per point in the config.
     launches : ndarray of `LAUNCH` or dict of arrays, optional
         Your own launches, instead of n drawn ones: an array, or a dict with an array of shape
-        (n, 3), or (3,) for all, for each field of `LAUNCH`. Axes need not have unit length. Any
-        dtype with the same fields is accepted; a contiguous array of native byte order is not
+        (n, 3), or (3,) for all, for each field of `LAUNCH`. Axes need not have unit length. x and
+        y must be 0 where the table has an edge or is tilted: coins are launched above its middle.
+        Any dtype with the same fields is accepted; a contiguous array of native byte order is not
         copied.
     first : int, optional
         Index of the first toss: toss k is the same toss in every call, in every run and on every

@@ -71,7 +71,8 @@ class Trace(ArrowTable):
         Numbers of impacts, of steps in sustained contact, and of impacts in Painlevé
         configurations.
     complete : bool
-        Whether everything was recorded; the limit is a million records and the end.
+        Whether everything was recorded. The limit is 200,000 records and the end; samples stop
+        when half of them are used.
     source : tuple
         What repeats the toss: config, point, toss, and launch as a row or None.
     """

@@ -4,7 +4,7 @@ All functions take numbers or arrays of any shape and broadcast them like NumPy 
 give numbers. NaN in any argument gives NaN, and so do values outside the domain of a function,
 without exception or warning. `is_heads` returns booleans, and False for NaN. Ratios are H/R, height
 over radius, from 0 to infinity, both included. Derivations, sources and accuracy are in
-docs/methods/plane.md.
+the documentation of the Rust crate coinmc-analytic, crates/coinmc-analytic/src.
 
 Examples
 --------

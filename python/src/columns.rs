@@ -1,9 +1,9 @@
 //! Columns of tosses in arrays allocated by Python.
 
-use crate::launch::{ROW, write_state};
+use crate::launch::{ROW, Start, write_state};
 use crate::share::Splittable;
 use coinmc::run::FinishedToss;
-use coinmc_core::{Ended, Face, Outcome};
+use coinmc_core::{Ended, Face, Outcome, TableTilt};
 use coinmc_trace::EndKind;
 
 /// Code of a toss without a face, after those of [`Face::ALL`].
@@ -122,10 +122,17 @@ impl<'a> Ends<'a> {
         (Self { time_s, last }, later)
     }
 
-    /// Writes a toss to index `i`; `from` is the horizontal position of the launch.
-    pub(crate) fn write(&mut self, i: usize, toss: &FinishedToss, from: [f64; 2]) {
+    /// Writes a toss on a table with this tilt to index `i`.
+    pub(crate) fn write(
+        &mut self,
+        i: usize,
+        toss: &FinishedToss,
+        start: Start<'_>,
+        tilt: Option<TableTilt>,
+    ) {
         self.time_s[i] = toss.end.time_s;
-        write_state(&toss.end, from, &mut self.last[i * ROW..(i + 1) * ROW]);
+        let end = tilt.map_or(toss.end, |tilt| tilt.state_in_laboratory(&toss.end));
+        write_state(&end, start, &mut self.last[i * ROW..(i + 1) * ROW]);
     }
 }
 

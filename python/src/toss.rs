@@ -2,7 +2,7 @@
 
 use crate::columns::{Columns, Ends, Outcomes, Rows, face_code};
 use crate::errors;
-use crate::launch::{Fault, ROW, check, launch, write_launch};
+use crate::launch::{Fault, ROW, Start, check, launch, write_launch};
 use crate::plan::Plan;
 use crate::share::{Splittable, fill_in_parallel};
 use crate::supervise::{Supervision, supervise, threads};
@@ -59,7 +59,7 @@ impl Job<'_> {
                     TossSource::Drawn(stream),
                     tosses,
                     columns,
-                    |_| [0.0; 2],
+                    |_| Start::MIDDLE,
                     supervision,
                 )
             }
@@ -73,27 +73,27 @@ impl Job<'_> {
                 }
                 let row = |toss: u64| &rows[index(toss) * ROW..][..ROW];
                 let source = |toss| launch(row(toss));
-                let from = |toss| [row(toss)[0], row(toss)[1]];
+                let start = |toss| Start::of(row(toss));
                 self.toss_into(
                     TossSource::Given(&source),
                     0..n as u64,
                     columns,
-                    from,
+                    start,
                     supervision,
                 )
             }
         }
     }
 
-    fn toss_into(
+    fn toss_into<'b>(
         &self,
         source: TossSource<'_>,
         tosses: Range<u64>,
         columns: Columns<'_>,
-        from: impl Fn(u64) -> [f64; 2],
+        start: impl Fn(u64) -> Start<'b>,
         supervision: &Supervision,
     ) -> Result<(), TossError> {
-        let first = tosses.start;
+        let (first, tilt) = (tosses.start, self.point.scene.surface.tilt());
         let tossed = match columns {
             Columns::Faces(face) => {
                 for_each_outcome(self.point, source, tosses, |toss, outcome| {
@@ -109,7 +109,7 @@ impl Job<'_> {
             }
             Columns::Ends(mut ends) => for_each_end(self.point, source, tosses, &mut |finished| {
                 let i = index(finished.toss - first);
-                ends.write(i, finished, from(finished.toss));
+                ends.write(i, finished, start(finished.toss), tilt);
                 supervision.may_continue()
             }),
         };

@@ -1,7 +1,7 @@
 //! The recorded motion of one toss.
 
 use crate::errors;
-use crate::launch::{ROW, check, launch, write_state};
+use crate::launch::{ROW, Start, check, launch, write_state};
 use crate::plan::Plan;
 use crate::supervise::wait_for;
 use coinmc_core::EventKind;
@@ -30,8 +30,7 @@ pub(crate) fn trace<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let row = row.as_ref().map(PyReadonlyArray1::as_slice).transpose()?;
     let trace = recorded(py, plan, (point, toss), row, rate_hz)?;
-    let from = row.map_or([0.0; 2], |row| [row[0], row[1]]);
-    as_dict(py, &trace, from)
+    as_dict(py, &trace, row.map_or(Start::MIDDLE, Start::of))
 }
 
 /// Records a toss like [`trace`], into a new file whose extension says the format.
@@ -97,7 +96,7 @@ fn recorded(
     trace.map_err(|error| errors::trace(&error))
 }
 
-fn as_dict<'py>(py: Python<'py>, trace: &Trace, from: [f64; 2]) -> PyResult<Bound<'py, PyDict>> {
+fn as_dict<'py>(py: Python<'py>, trace: &Trace, start: Start<'_>) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("engine", trace.engine)?;
     dict.set_item("rate_hz", trace.rate_hz)?;
@@ -112,8 +111,8 @@ fn as_dict<'py>(py: Python<'py>, trace: &Trace, from: [f64; 2]) -> PyResult<Boun
     let all: Vec<&Record> = trace.records.iter().collect();
     let samples: Vec<&Record> = all.iter().copied().filter(|r| is_sample(r)).collect();
     let events: Vec<&Record> = all.into_iter().filter(|r| is_event(r)).collect();
-    dict.set_item("samples", columns(py, &samples, from)?)?;
-    dict.set_item("events", columns(py, &events, from)?)?;
+    dict.set_item("samples", columns(py, &samples, start)?)?;
+    dict.set_item("events", columns(py, &events, start)?)?;
     Ok(dict)
 }
 
@@ -132,7 +131,7 @@ fn is_event(record: &Record) -> bool {
 fn columns<'py>(
     py: Python<'py>,
     records: &[&Record],
-    from: [f64; 2],
+    start: Start<'_>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let numbers = |of: fn(&Record) -> f64| -> Bound<'py, PyArray1<f64>> {
         let values: Vec<f64> = records.iter().map(|record| of(record)).collect();
@@ -141,7 +140,7 @@ fn columns<'py>(
     let mut states = vec![0.0; records.len() * ROW];
     let mut turns = Vec::with_capacity(records.len() * 4);
     for (record, row) in records.iter().zip(states.chunks_exact_mut(ROW)) {
-        write_state(&record.state, from, row);
+        write_state(&record.state, start, row);
         let q = &record.orientation;
         turns.extend([q.w, q.i, q.j, q.k]);
     }

@@ -76,3 +76,10 @@ def test_the_fair_ratio_is_where_the_side_has_a_third():
 def test_what_it_does_not_hold_is_said(asked, message):
     with pytest.raises(ValueError, match=message):
         coinmc.ask(**asked)
+
+
+def test_masked_values_are_refused():
+    masked = np.ma.masked_array([1.0, 1.2], [0, 1])
+    for asked in ({"ratio": masked}, {"ratio": 1.0, "friction": masked}):
+        with pytest.raises(ValueError, match="masked values are not supported"):
+            coinmc.ask(**asked)

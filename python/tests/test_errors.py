@@ -1,5 +1,8 @@
 """Errors say what to do."""
 
+import copy
+import pickle
+
 import pytest
 
 import coinmc
@@ -50,3 +53,13 @@ def test_arguments_are_named_where_a_table_is_missing(scene):
             call()
         told = "\n".join(raised.value.__notes__)
         assert all(note in told for note in notes), told
+
+
+def test_copies_of_errors_have_problems_and_notes(scene):
+    with pytest.raises(coinmc.ConfigError) as raised:
+        coinmc.toss({name: scene[name] for name in ("coin", "surface", "engine")})
+    error = raised.value
+    for again in (pickle.loads(pickle.dumps(error)), copy.copy(error)):
+        assert type(again) is coinmc.ConfigError
+        assert (str(again), again.problems) == (str(error), error.problems)
+        assert again.__notes__ == error.__notes__ != []

@@ -1,9 +1,12 @@
 """A robot's journal: what it says and cannot say; and the robot itself with rendered photos."""
 
+import hashlib
 import json
+import os
 import shlex
 import subprocess
 import sys
+import tracemalloc
 import zlib
 
 import numpy as np
@@ -160,6 +163,60 @@ def test_damage_is_named(journal, tmp_path):
     assert len(open_day(path)) == 2
     with pytest.raises(coinmc.RunError, match="contains no experiment"):
         open_day(tmp_path)
+
+
+def photo_log(folder, entries: list[dict | str]) -> None:
+    """Write a log of photos, whose entries may be texts."""
+    lines = [{"format": "coinmc-photos", "version": 1}, *entries]
+    texts = [line if isinstance(line, str) else json.dumps(line) for line in lines]
+    (folder / "photos" / "photos.jsonl").write_text("\n".join(texts) + "\n")
+
+
+def test_a_bad_line_of_the_log_of_photos_costs_only_itself(journal):
+    folder = journal([(1000, 9000, "heads")] * 2)
+    names = ["000001-1.jpg", "000002-1.jpg"]
+    for name in names:
+        (folder / "photos" / name).write_bytes(b"photo")
+    digest = hashlib.sha256(b"photo").hexdigest()
+    photo_log(
+        folder,
+        [
+            *({"image": name, "throw": 1, "sha256": digest} for name in names),
+            {"image": "a\0b", "throw": 1, "sha256": digest},
+            {"image": "a\x1b[2Jb", "throw": 1, "sha256": digest},
+            {"image": names[0], "throw": [1]},
+            f'{{"image": "{names[0]}", "reading": {{"confidence": {"1" * 400}, "markers": 3}}}}',
+        ],
+    )
+    day = open_day(folder)
+    assert day["photos"].tolist() == [2, 0]
+    assert np.isnan(day["confidence"]).all()
+    assert day["markers"][0] == 3
+    assert day.check_photos() == []
+
+
+def test_photos_are_plain_files_of_the_size_of_photos(journal):
+    folder = journal([(1000, 9000, "heads")])
+    os.mkfifo(folder / "photos" / "pipe.jpg")
+    with (folder / "photos" / "large.jpg").open("wb") as file:
+        file.truncate(2 << 30)
+    names = ["large.jpg", "missing.jpg", "pipe.jpg"]
+    photo_log(folder, [{"image": name, "throw": 1, "sha256": "00"} for name in names])
+    tracemalloc.start()
+    problems = open_day(folder).check_photos()
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 8 << 20
+    assert problems == [
+        "large.jpg is larger than 64 MiB",
+        "missing.jpg cannot be read: No such file or directory",
+        "pipe.jpg cannot be read: it is not a plain file",
+        "000001-1.jpg is not in the log",
+    ]
+    (folder / "photos" / "photos.jsonl").unlink()
+    os.mkfifo(folder / "photos" / "photos.jsonl")
+    with pytest.raises(coinmc.VisionError, match=r"photos\.jsonl cannot be read: it is not"):
+        open_day(folder)
 
 
 def test_the_page_needs_nothing_else_and_replaces_nothing(journal, tmp_path):

@@ -1,5 +1,6 @@
 """Photos of coins with markers: no photo is read as a face that it does not show."""
 
+import json
 import math
 
 import cv2
@@ -291,6 +292,49 @@ def test_bad_coin_files_are_refused_with_all_problems(tmp_path, text, told):
     (tmp_path / "coin.json").write_text(text)
     with pytest.raises(coinmc.VisionError, match=told):
         MarkedCoin.load(tmp_path / "coin.json")
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"dictionary": []}, r"json: dictionary must be one of DICT_4X4_50, DICT_4X4_100$"),
+        ({"dictionary": "DICT_5X5_50"}, r"json: dictionary must be one of DICT_4X4_50,[^;]*$"),
+        (
+            {"markers": [{"id": 0, "on": "heads", "corners_mm": [[10**400] * 3] * 4}]},
+            "marker 0 must have id, on and corners_mm",
+        ),
+        ({"radius_mm": 10**400}, "radius_mm must be a number from"),
+    ],
+)
+def test_every_bad_value_of_a_coin_is_named(tmp_path, change, told):
+    MarkedCoin.of(25.0, 0.577).save(tmp_path / "good.json")
+    good = json.loads((tmp_path / "good.json").read_text())
+    (tmp_path / "coin.json").write_text(json.dumps({**good, **change}))
+    with pytest.raises(coinmc.VisionError, match=told):
+        MarkedCoin.load(tmp_path / "coin.json")
+
+
+@pytest.mark.parametrize("kind", [MarkedCoin, Camera])
+def test_an_endless_file_is_not_read(kind):
+    with pytest.raises(coinmc.VisionError) as raised:
+        kind.load("/dev/zero")
+    assert str(raised.value) == "/dev/zero cannot be read: it is not a plain file"
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"rms_px": None}, "rms_px must be a number$"),
+        ({"size_px": [1]}, "size_px must be 2 numbers$"),
+        ({"matrix_px": [[10**400, 0, 0]] * 3}, "matrix_px must be 3 x 3 numbers$"),
+    ],
+)
+def test_every_bad_value_of_a_camera_is_named(tmp_path, change, told):
+    drawn_camera(25.0, np.random.default_rng(1)).save(tmp_path / "good.json")
+    good = json.loads((tmp_path / "good.json").read_text())
+    (tmp_path / "c.json").write_text(json.dumps({**good, **change}))
+    with pytest.raises(coinmc.VisionError, match=told):
+        Camera.load(tmp_path / "c.json")
 
 
 def test_a_camera_below_the_table_is_refused(tmp_path):

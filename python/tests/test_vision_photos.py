@@ -1,6 +1,7 @@
 """Photos that are none, and photos of every kind."""
 
 import io
+import os
 import struct
 import tracemalloc
 import zlib
@@ -104,7 +105,8 @@ def test_what_is_no_photo_is_refused_before_it_takes_memory(tmp_path, content, t
 
 
 def test_folders_and_endless_files_are_refused(tmp_path):
-    for path in (tmp_path, tmp_path / "missing", "/dev/zero"):
+    os.mkfifo(tmp_path / "pipe.jpg")
+    for path in (tmp_path, tmp_path / "missing", "/dev/zero", tmp_path / "pipe.jpg"):
         with pytest.raises(coinmc.VisionError):
             read_photo(path)
 

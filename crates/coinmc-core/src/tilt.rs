@@ -5,7 +5,7 @@
 //! direction ê. In these axes the weight is m g cos β downwards and m g sin β along ê: a tilted table
 //! is a level one with the gravity g cos β and a constant pull, tan β of it, to one side.
 
-use crate::Launch;
+use crate::{Launch, State};
 use nalgebra::{UnitVector3, Vector3};
 use thiserror::Error;
 
@@ -116,6 +116,27 @@ impl TableTilt {
         )
     }
 
+    /// The components of a vector in axes of the table along those of the laboratory.
+    pub fn in_laboratory_axes(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        let back = Self {
+            sin: -self.sin,
+            ..*self
+        };
+        back.in_table_axes(v)
+    }
+
+    /// A state in axes of the table along those of the laboratory. Both have their origin in the
+    /// middle of the table.
+    pub fn state_in_laboratory(&self, state: &State) -> State {
+        State {
+            time_s: state.time_s,
+            position_m: self.in_laboratory_axes(&state.position_m),
+            velocity_m_s: self.in_laboratory_axes(&state.velocity_m_s),
+            axis: UnitVector3::new_unchecked(self.in_laboratory_axes(&state.axis)),
+            spin_rad_s: self.in_laboratory_axes(&state.spin_rad_s),
+        }
+    }
+
     /// A launch in axes of the table, and where its centre is along x and y, m. In the laboratory the
     /// centre is `height_m` straight above the middle of the table.
     pub fn launch_in_table_axes(&self, launch: &Launch) -> (Launch, [f64; 2]) {
@@ -167,6 +188,33 @@ mod tests {
         assert!((turned.height_m - 0.5 * cos).abs() < 1e-15);
         assert!((turned.axis.x + sin).abs() < 1e-15);
         assert_eq!(turned.spin_rad_s, launch.spin_rad_s);
+    }
+
+    #[test]
+    fn the_way_back_to_the_laboratory_undoes_the_turn() {
+        let tilt = TableTilt::new(7.0, 30.0).unwrap();
+        let parts = [
+            (0.3, -0.2, 0.9),
+            (-0.5, 0.4, 0.1),
+            (0.6, 0.0, 0.8),
+            (4.0, 5.0, -6.0),
+        ];
+        let [position_m, velocity_m_s, axis, spin_rad_s] =
+            parts.map(|(x, y, z)| Vector3::new(x, y, z));
+        let table = |v: &Vector3<f64>| tilt.in_table_axes(v);
+        let back = tilt.state_in_laboratory(&State {
+            time_s: 2.0,
+            position_m: table(&position_m),
+            velocity_m_s: table(&velocity_m_s),
+            axis: UnitVector3::new_unchecked(table(&axis)),
+            spin_rad_s: table(&spin_rad_s),
+        });
+        // two turns of vectors shorter than 9: a few roundings
+        assert!((back.position_m - position_m).norm() < 1e-14);
+        assert!((back.velocity_m_s - velocity_m_s).norm() < 1e-14);
+        assert!((back.axis.into_inner() - axis).norm() < 1e-14);
+        assert!((back.spin_rad_s - spin_rad_s).norm() < 1e-14);
+        assert_eq!(back.time_s, 2.0);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 """The throws of an experiment, as a table and as counts."""
 
-import hashlib
+import math
 import os
 from collections import Counter
 from collections.abc import Mapping
@@ -12,11 +12,11 @@ import numpy as np
 
 from coinmc import _lib
 from coinmc._config import Config
-from coinmc._errors import RunError
+from coinmc._errors import RunError, VisionError
 from coinmc._intervals import Estimate, estimates
 from coinmc.experiment._misread import FACES, Confusion, Corrected
 from coinmc.experiment._model import LogLikelihood, Prediction, predict
-from coinmc.vision._store import logged
+from coinmc.vision._store import digest, logged
 
 __all__ = ["Day", "open"]
 
@@ -214,9 +214,9 @@ class Day:
         hashes = {entry["image"]: entry["sha256"] for entry in self._log if "sha256" in entry}
         for name, known in sorted(hashes.items()):
             try:
-                found = hashlib.sha256((folder / Path(name).name).read_bytes()).hexdigest()
-            except OSError as error:
-                problems.append(f"{name} cannot be read: {error.strerror}")
+                found = digest(folder / Path(name).name)
+            except VisionError as error:
+                problems.append(str(error))
                 continue
             if found != known:
                 problems.append(f"{name} was changed")
@@ -259,15 +259,24 @@ class Day:
         readings = {
             e["image"]: e["reading"] for e in self._log if isinstance(e.get("reading"), dict)
         }
-        taken = Counter(entry["throw"] for entry in self._log if "throw" in entry)
+        throws = (entry.get("throw") for entry in self._log)
+        taken = Counter(throw for throw in throws if isinstance(throw, int))
         found = {name: np.full(len(columns["id"]), np.nan) for name, _, _ in _READINGS}
         for row, (number, image) in enumerate(zip(columns["id"], columns["image"], strict=True)):
             found["photos"][row] = taken.get(int(number), 0)
             for name, value in readings.get(image, {}).items():
                 if name in found and isinstance(value, int | float):
-                    found[name][row] = value
+                    found[name][row] = _float(value)
         more = [(name, unit, text, found[name]) for name, unit, text in _READINGS]
         return table.with_numbers(more)
+
+
+def _float(value: float) -> float:
+    """Return a number of a log, which may have more digits than a float holds; NaN then."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.nan
 
 
 def open(path: str | os.PathLike[str]) -> Day:

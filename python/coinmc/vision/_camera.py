@@ -94,10 +94,11 @@ class Camera:
         def numbers(key: str, shape: tuple[int, ...]) -> np.ndarray:
             try:
                 array = np.array(read.get(key), dtype=float)
-            except (TypeError, ValueError):
+            except (TypeError, ValueError, OverflowError):
                 array = np.array(np.nan)
             if array.shape != shape or not np.isfinite(array).all():
-                problems.append(f"{key} must be {' x '.join(map(str, shape))} numbers")
+                wanted = f"{' x '.join(map(str, shape))} numbers" if shape else "a number"
+                problems.append(f"{key} must be {wanted}")
                 return np.zeros(shape)
             return array
 

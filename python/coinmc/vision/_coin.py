@@ -24,6 +24,7 @@ FACES = ("heads", "tails", "side")
 STRIP_PLACES = 12
 
 _MARKERS = {"DICT_4X4_50": 50, "DICT_4X4_100": 100}
+_LARGEST = "DICT_4X4_100"
 _RADII_MM = (2.0, 90.0)
 _RATIOS = (0.02, 10.0)
 # Of the largest marker of the side: a wider one bulges too much to be read as a square.
@@ -168,13 +169,14 @@ class MarkedCoin:
         problems: list[str] = []
         radius, height = (_length(read, key, problems) for key in ("radius_mm", "height_mm"))
         dictionary = read.get("dictionary")
-        if dictionary not in _MARKERS:
+        if not isinstance(dictionary, str) or dictionary not in _MARKERS:
+            dictionary = _LARGEST
             problems.append(f"dictionary must be one of {', '.join(_MARKERS)}")
         listed = read.get("markers")
-        if not isinstance(listed, list) or not 1 <= len(listed) <= max(_MARKERS.values()):
+        if not isinstance(listed, list) or not 1 <= len(listed) <= _MARKERS[_LARGEST]:
             problems.append("markers must be a list of 1 to 100 markers")
             listed = []
-        most = _MARKERS.get(dictionary, 0)
+        most = _MARKERS[dictionary]
         markers = [_marker(entry, place, most, problems) for place, entry in enumerate(listed)]
         ids = [marker.id for marker in markers if marker]
         if len(set(ids)) < len(ids):
@@ -199,7 +201,7 @@ def _marker(entry: Any, place: int, most: int, problems: list[str]) -> Marker | 
     try:
         number, face = entry["id"], entry["on"]
         corners = np.array(entry["corners_mm"], dtype=float)
-    except (KeyError, TypeError, ValueError):
+    except (KeyError, TypeError, ValueError, OverflowError):
         problems.append(f"marker {place} must have id, on and corners_mm")
         return None
     good = (

@@ -1,11 +1,13 @@
 """Reading photos that may be anything: what they are is known before they are decoded."""
 
+import os
 import warnings
 from pathlib import Path
 
 import numpy as np
 
 from coinmc._errors import VisionError
+from coinmc.vision._files import open_plain
 from coinmc.vision._needs import pillow
 
 __all__ = ["read_photo"]
@@ -43,12 +45,12 @@ def read_photo(path: Path | str, size: tuple[int, int] | None = None) -> np.ndar
     """
     image_of = pillow()
     try:
-        if Path(path).stat().st_size > MOST_BYTES:
-            raise VisionError(f"{path} is larger than {MOST_BYTES >> 20} MiB")
-        with warnings.catch_warnings():
+        with open_plain(path) as file, warnings.catch_warnings():
+            if os.fstat(file.fileno()).st_size > MOST_BYTES:
+                raise VisionError(f"{path} is larger than {MOST_BYTES >> 20} MiB")
             # Pillow's own warning of large photos: they are refused below
             warnings.simplefilter("ignore")
-            with image_of.open(path, formats=_KINDS) as image:
+            with image_of.open(file, formats=_KINDS) as image:
                 _check(image, str(path), size)
                 return _grey(image)
     except VisionError:

@@ -10,6 +10,7 @@ import numpy as np
 from coinmc._errors import VisionError
 from coinmc.vision._camera import Camera
 from coinmc.vision._coin import FACES, MarkedCoin
+from coinmc.vision._files import open_plain
 from coinmc.vision._needs import cv2
 from coinmc.vision._photo import MOST_BYTES
 from coinmc.vision.synthetic import Effects, Ends, Scene, SyntheticCamera, jpeg
@@ -59,7 +60,7 @@ class FileSource:
     def take(self, throw: int, name: str) -> tuple[bytes, str]:
         """Copy the photo as it is now."""
         try:
-            with self.path.open("rb") as file:
+            with open_plain(self.path) as file:
                 content = file.read(MOST_BYTES + 1)
         except OSError as error:
             raise VisionError(f"{self.path} cannot be read: {error.strerror}") from error

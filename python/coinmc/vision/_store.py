@@ -11,8 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from coinmc._errors import VisionError
+from coinmc.vision._files import open_plain
+from coinmc.vision._photo import MOST_BYTES
 
-__all__ = ["LOG", "PhotoStore", "logged"]
+__all__ = ["LOG", "PhotoStore", "digest", "logged"]
 
 #: The log in the folder of the photos.
 LOG = "photos.jsonl"
@@ -20,6 +22,7 @@ FORMAT = "coinmc-photos"
 VERSION = 1
 _NAME = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9_.-]{0,79}")
 _LONGEST_LINE = 1 << 14
+_PIECE = 1 << 20
 
 
 @dataclass
@@ -81,24 +84,50 @@ class PhotoStore:
 
 
 def logged(folder: Path) -> Iterator[dict[str, Any]]:
-    """Read the entries of a log; incomplete lines are left out.
+    """Read the entries of a log; incomplete lines are left out, and those that name no image.
 
     Raises
     ------
     coinmc.VisionError
-        If there is a log of another format or version.
+        If there is a log that cannot be read, or of another format or version.
     """
     path = folder / LOG
-    if not path.exists():
+    try:
+        with open_plain(path) as file:
+            head = _entry(file.readline(_LONGEST_LINE))
+            if head.get("format") != FORMAT or head.get("version") != VERSION:
+                raise VisionError(f"{path} is not a log of photos of version {VERSION}")
+            while line := file.readline(_LONGEST_LINE):
+                entry = _entry(line)
+                image = entry.get("image")
+                # no file has a name with a zero, and a terminal might obey one with an escape
+                if isinstance(image, str) and image.isprintable():
+                    yield entry
+    except (FileNotFoundError, NotADirectoryError):
         return
-    with path.open("rb") as file:
-        head = _entry(file.readline(_LONGEST_LINE))
-        if head.get("format") != FORMAT or head.get("version") != VERSION:
-            raise VisionError(f"{path} is not a log of photos of version {VERSION}")
-        while line := file.readline(_LONGEST_LINE):
-            entry = _entry(line)
-            if isinstance(entry.get("image"), str):
-                yield entry
+    except OSError as error:
+        raise VisionError(f"{path} cannot be read: {error.strerror}") from error
+
+
+def digest(path: Path) -> str:
+    """Return the SHA-256 of a photo, which is not read as a whole.
+
+    Raises
+    ------
+    coinmc.VisionError
+        If it cannot be read, or is larger than photos may be; the message says why.
+    """
+    found, length = hashlib.sha256(), 0
+    try:
+        with open_plain(path) as file:
+            while length <= MOST_BYTES and (piece := file.read(_PIECE)):
+                found.update(piece)
+                length += len(piece)
+    except OSError as error:
+        raise VisionError(f"{path.name} cannot be read: {error.strerror}") from error
+    if length > MOST_BYTES:
+        raise VisionError(f"{path.name} is larger than {MOST_BYTES >> 20} MiB")
+    return found.hexdigest()
 
 
 def _entry(line: bytes) -> dict[str, Any]:
