@@ -111,9 +111,12 @@ mod tests {
     #[test]
     fn a_film_begins_above_the_ground() {
         let film = |place: usize, value: f64| {
-            let mut film = Synthetic::default();
-            film.start = [0.0, 0.1, 0.2, 0.0, 0.0, 0.0];
-            film.start[place] = value;
+            let mut start = [0.0, 0.1, 0.2, 0.0, 0.0, 0.0];
+            start[place] = value;
+            let film = Synthetic {
+                start,
+                ..Synthetic::default()
+            };
             film.film(&model())
         };
         assert!(film(2, 5.001e-3).is_some());

@@ -50,8 +50,8 @@ pub enum FitError {
     },
     /// As many values are fitted as there are points, or more.
     #[error(
-        "{fitted} fitted values take more points than the {points} that the law can tell: check coin, \
-         units, angle and floor, or fit more of the film"
+        "{points} points are too few for {fitted} fitted values: check coin, units, angle and floor, \
+         or fit more of the film"
     )]
     TooFew {
         /// Number of points that count.
