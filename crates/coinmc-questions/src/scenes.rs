@@ -156,14 +156,11 @@ impl EverydayScene {
 
     /// In words, with what `overrides` change of it.
     pub fn described(&self, overrides: &[Override]) -> String {
-        let changes = if overrides.is_empty() {
-            String::new()
-        } else {
-            format!("; but with {}", changed(overrides))
-        };
         format!(
-            "{}; a coin of metal, tossed by hand from {:?} m above it{changes}",
-            self.doc, self.height_m
+            "{}; a coin of metal, tossed by hand from {:?} m above it{}",
+            self.doc,
+            self.height_m,
+            but_with(overrides)
         )
     }
 
@@ -277,6 +274,15 @@ impl EverydayScene {
             source: "ours: a tray that somebody carries",
         }));
         assumptions
+    }
+}
+
+/// "; but with …", as it was typed, where anything is changed of a scene.
+pub fn but_with(overrides: &[Override]) -> String {
+    if overrides.is_empty() {
+        String::new()
+    } else {
+        format!("; but with {}", changed(overrides))
     }
 }
 

@@ -14,6 +14,8 @@ use std::thread;
 
 /// Tosses of one piece of work: some 0.1 s of the longest.
 const PIECE: u64 = 256;
+/// Pieces that are handed out before more are cut.
+const ROUND: usize = 1 << 16;
 
 /// Who tosses, and whom to tell.
 #[derive(Clone, Copy)]
@@ -326,16 +328,22 @@ impl Workers<'_> {
         ranges: &[Range<u64>],
         compute: &(dyn Fn(usize, Range<u64>) -> Result<[u64; N], QuestionError> + Sync),
     ) -> Result<Vec<[u64; N]>, QuestionError> {
-        let pieces: Vec<Piece> = ranges.iter().enumerate().flat_map(pieces).collect();
-        let counts = self.each(pieces.len(), &|index| {
-            let piece = &pieces[index];
-            compute(piece.work, piece.tosses.clone())
-        })?;
+        let mut left = ranges.iter().enumerate().flat_map(pieces);
         let mut sums = vec![[0; N]; ranges.len()];
-        for (piece, counts) in pieces.iter().zip(&counts) {
-            add(&mut sums[piece.work], counts);
+        loop {
+            // not all at once: 1e12 tosses have a thousand million pieces
+            let round: Vec<Piece> = left.by_ref().take(ROUND).collect();
+            if round.is_empty() {
+                return Ok(sums);
+            }
+            let counts = self.each(round.len(), &|index| {
+                let piece = &round[index];
+                compute(piece.work, piece.tosses.clone())
+            })?;
+            for (piece, counts) in round.iter().zip(&counts) {
+                add(&mut sums[piece.work], counts);
+            }
         }
-        Ok(sums)
     }
 
     /// Computes pieces of work on all threads, in this order as far as there are threads.
@@ -421,6 +429,29 @@ mod tests {
     fn changes(table: [[u64; ENDS]; ENDS]) -> Changes {
         let mut pairs = table.concat().into_iter();
         Changes([(); PAIRS].map(|()| pairs.next().expect("a pair of ends")))
+    }
+
+    /// However many tosses there are, few of their pieces are in memory at a time, and none is lost: three rounds and a
+    /// part of one.
+    #[test]
+    fn pieces_are_cut_as_they_are_needed() {
+        let cancel = AtomicBool::new(false);
+        let workers = Workers {
+            threads: NonZeroUsize::new(2),
+            cancel: &cancel,
+            made: &|_| (),
+        };
+        let tosses = 3 * ROUND as u64 * PIECE + 1000;
+        let ranges = [5..5 + tosses, 0..7, 0..0];
+        let counts = workers.each_piece(&ranges, &|work, tosses| {
+            Ok([tosses.end - tosses.start, work as u64])
+        });
+        let counts = counts.expect("nothing fails");
+        assert_eq!(counts[0], [tosses, 0]);
+        assert_eq!(counts[1..], [[7, 1], [0, 0]]);
+        // begun at once, though all pieces would not fit into memory
+        let failing = workers.each_piece::<1>(&[0..u64::MAX], &|_, _| Err(QuestionError::Stopped));
+        assert!(matches!(failing, Err(QuestionError::Stopped)));
     }
 
     /// 80 tosses gain the side, 50 lose it, 30 only turn over.

@@ -4,6 +4,7 @@ use super::super::other_size::OtherSize;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::with_interval;
 use crate::terminal::{Colors, Style, compact, decimals_that_show, grouped, in_ascii, wrapped};
+use coinmc_questions::scenes::but_with;
 use coinmc_questions::{Designed, Root, TEST, THICKNESS_ERRORS_M};
 use coinmc_solid::{Infill, Shape};
 use std::path::PathBuf;
@@ -36,8 +37,8 @@ pub(super) fn text(
     });
     text += &other.map_or(String::new(), |other| other.remark(shape.diameter_m()));
     if let Some(scene) = designed.scene {
-        let described = scene.described(&designed.overrides);
-        let line = format!("for the scene {}: {described}", scene.name);
+        let but = but_with(&designed.overrides);
+        let line = format!("for the scene {}: {}{but}", scene.name, scene.doc);
         text += &wrapped(&line, style.width, 0);
     }
     text += &shortcomings(root, designed.fair.question.half_width);
