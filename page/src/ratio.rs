@@ -22,5 +22,5 @@ pub(crate) fn fair(config: &str, half_width: f64, max_tosses: u64) -> Answer {
     };
     let template = Template::new("config", config, &[]);
     let answer = search(&template, &question, &workers).map_err(|error| error.to_string())?;
-    Ok(document(&answer, None, &[]))
+    Ok(document(&answer, (None, &[]), &[]))
 }

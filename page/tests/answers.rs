@@ -99,7 +99,8 @@ fn the_fair_ratio_is_that_of_the_question() {
         made: &|_| (),
     };
     let found = fair(&Template::new("config", FLAT, &[]), &question, &workers).unwrap();
-    let expected: Value = serde_json::from_str(&document(&found, None, &[]).to_string()).unwrap();
+    let expected: Value =
+        serde_json::from_str(&document(&found, (None, &[]), &[]).to_string()).unwrap();
     assert_eq!(told, expected);
 }
 

@@ -450,7 +450,8 @@ mod tests {
         assert_eq!(counts[0], [tosses, 0]);
         assert_eq!(counts[1..], [[7, 1], [0, 0]]);
         // begun at once, though all pieces would not fit into memory
-        let failing = workers.each_piece::<1>(&[0..u64::MAX], &|_, _| Err(QuestionError::Stopped));
+        let failing =
+            workers.each_piece::<1>(&[0..u64::MAX, 0..0], &|_, _| Err(QuestionError::Stopped));
         assert!(matches!(failing, Err(QuestionError::Stopped)));
     }
 
