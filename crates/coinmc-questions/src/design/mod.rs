@@ -103,7 +103,7 @@ pub enum DesignError {
 pub struct Designed {
     /// The everyday scene, if it is for one.
     pub scene: Option<EverydayScene>,
-    /// What was changed of the scene, or of the config.
+    /// What was changed of the scene, or of the config, but for the coin, which is here.
     pub overrides: Vec<Override>,
     /// The search for the ratio.
     pub fair: Fair,
@@ -164,13 +164,14 @@ pub fn design(
         effects = assumptions::effects(&template, &fair, &root, assumed, tosses, workers)?;
     }
     let shape = coin.shape(root.coin.height_m())?;
+    let not_of_coin = overrides.iter().filter(|set| !set.is_of("coin"));
     let faces = (shape.draft_deg() != 0.0).then(|| Faces::at(&template, &root, workers));
     Ok(Designed {
         faces: faces.transpose()?,
         mass: coin.mass(&shape)?,
         mesh: shape.mesh(shape.chord_error_m())?,
         scene,
-        overrides: overrides.to_vec(),
+        overrides: not_of_coin.cloned().collect(),
         fair,
         root,
         effects,

@@ -111,6 +111,11 @@ impl Override {
         &self.text
     }
 
+    /// Whether it gives something of this table.
+    pub fn is_of(&self, table: &str) -> bool {
+        self.keys.first().is_some_and(|(first, _)| first == table)
+    }
+
     /// Whether it gives a value to this dotted key, or to a table that holds it.
     pub fn is_about(&self, key: &str) -> bool {
         let mut wanted = key.split('.');
@@ -125,12 +130,12 @@ impl Override {
     /// # Example
     /// ```
     /// use coinmc::config::{self, Override};
-    /// let set: Override = "surface.frction=1.0".parse()?;
-    /// let set = set.made_of("--vary", "surface.frction");
+    /// let set: Override = "coin.rato=1.0".parse()?;
+    /// let set = set.made_of("--vary", "coin.rato");
     /// let text = "coin.ratio = 1.2\nengine.analytic.rule = 'zone'";
     /// let problems = config::parse("inline", text, &[set]).unwrap_err();
     /// let problem = &problems.problems()[0];
-    /// assert_eq!((problem.source.as_str(), problem.column), ("--vary", 9));
+    /// assert_eq!((problem.source.as_str(), problem.column), ("--vary", 6));
     /// assert!(!problems.render(false).contains("1.0"));
     /// # Ok::<(), coinmc::config::OverrideError>(())
     /// ```
@@ -316,5 +321,6 @@ mod tests {
         let set: Override = "surface.friction=0.2".parse().expect("an override");
         assert!(set.is_about("surface.friction") && !set.is_about("surface.restitution"));
         assert!(!set.is_about("surface"));
+        assert!(set.is_of("surface") && !set.is_of("coin") && !set.is_of("friction"));
     }
 }
