@@ -492,4 +492,31 @@ mod tests {
             assert_eq!(resolution(0.02, 0.0, sign).0, Resolution::StaysInContact);
         }
     }
+
+    /// A pulse in no time that gives back all of the speed keeps the energy to the tolerance, and that is no gain.
+    #[test]
+    fn a_lossless_pulse_gains_nothing() {
+        let scene = coinmc_testkit::scene(1.0, 0.5, 0.3);
+        let shape = Shape::new(&scene.coin);
+        let mut motion = crate::motion::tests::on_corner(0, 0.3, 0.2, 0.0);
+        motion.vz -= 0.7;
+        let before = motion.energy(shape.k);
+        let mut breaks = coinmc_core::Breaks::default();
+        let mut impact = Impact {
+            motion: &mut motion,
+            shape: &shape,
+            restitution: 1.0,
+            friction: 0.0,
+            tolerance: 1e-4,
+            breaks: &mut breaks,
+            record: crate::impact_law::ImpactRecord::default(),
+        };
+        let law = HalfSineImpact {
+            time: Time::Given(1e-7),
+            peak: None,
+        };
+        assert_eq!(law.resolve(&mut impact), Resolution::Separates);
+        assert!((motion.energy(shape.k) / before - 1.0).abs() < 1e-5);
+        assert_eq!(breaks.energy_gains, 0);
+    }
 }
