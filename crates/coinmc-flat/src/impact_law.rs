@@ -91,3 +91,25 @@ pub enum Resolution {
     /// Resolved to an instant after which the corner stays on the surface.
     StaysInContact,
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// An impact of this coin with e = 1/2 and μ = .3.
+    pub(crate) fn impact<'a>(
+        motion: &'a mut Motion,
+        shape: &'a Shape,
+        breaks: &'a mut Breaks,
+    ) -> Impact<'a> {
+        Impact {
+            motion,
+            shape,
+            restitution: 0.5,
+            friction: 0.3,
+            tolerance: 1e-6,
+            breaks,
+            record: ImpactRecord::default(),
+        }
+    }
+}

@@ -264,7 +264,9 @@ fn chosen(template: &Template, steps: &Steps) -> Result<Vec<Parameter>, Question
     let chosen = if steps.keys.is_empty() {
         all
     } else {
-        picked(&all, &steps.keys).unwrap_or_else(|error| {
+        let named = |key: &str| all.iter().find(|one| one.key == key).cloned();
+        let keys = steps.keys.iter().map(String::as_str);
+        each_varied(&all, keys, named).unwrap_or_else(|error| {
             refused.push(error);
             vec![]
         })
@@ -272,33 +274,27 @@ fn chosen(template: &Template, steps: &Steps) -> Result<Vec<Parameter>, Question
     QuestionError::of_all(refused).map_or(Ok(chosen), Err)
 }
 
-/// The parameters of these keys.
-fn picked(all: &[Parameter], keys: &[String]) -> Result<Vec<Parameter>, QuestionError> {
+/// What is found under each of these keys, or which of them are of no parameter that can be varied, of all that can.
+pub(crate) fn each_varied<'a, T>(
+    all: &[Parameter],
+    keys: impl Iterator<Item = &'a str>,
+    find: impl Fn(&str) -> Option<T>,
+) -> Result<Vec<T>, QuestionError> {
+    let known = || all.iter().map(|known| known.key.as_str());
     let (mut found, mut unknown) = (vec![], vec![]);
     for key in keys {
-        match all.iter().find(|parameter| parameter.key == *key) {
-            Some(parameter) => found.push(parameter.clone()),
-            None => unknown.push(key.as_str()),
+        match find(key) {
+            Some(one) => found.push(one),
+            None => unknown.push((key.to_owned(), nearest(key, known()).map(str::to_owned))),
         }
     }
     if unknown.is_empty() {
-        Ok(found)
-    } else {
-        Err(not_varied(all, &unknown))
+        return Ok(found);
     }
-}
-
-/// That none of these parameters has one of these keys.
-pub(crate) fn not_varied(all: &[Parameter], keys: &[&str]) -> QuestionError {
-    let known = || all.iter().map(|known| known.key.as_str());
-    let near = |key| nearest(key, known()).map(str::to_owned);
-    QuestionError::NotVaried {
-        keys: keys
-            .iter()
-            .map(|key| ((*key).to_owned(), near(key)))
-            .collect(),
+    Err(QuestionError::NotVaried {
+        keys: unknown,
         known: known().collect::<Vec<_>>().join(", "),
-    }
+    })
 }
 
 fn sensitivity(moved: Moved, changes: &Changes, step: f64) -> Sensitivity {

@@ -107,27 +107,19 @@ impl Changes {
         [first, self.with(|_| true, |second| second == end)]
     }
 
-    /// The tosses at the second point.
-    pub(crate) fn seen_at_second(&self, face: Face) -> Seen {
-        Seen {
+    /// The tosses at the first and at the second point.
+    pub(crate) fn seen(&self, face: Face) -> [Seen; 2] {
+        let (shown, undecided) = (self.ended(face as usize), self.undecided());
+        [0, 1].map(|point: usize| Seen {
             tosses: self.tosses(),
-            shown: self.ended(face as usize)[1],
-            undecided: self.undecided()[1],
-        }
-    }
-
-    /// The tosses at the first point.
-    pub(crate) fn seen(&self, face: Face) -> Seen {
-        Seen {
-            tosses: self.tosses(),
-            shown: self.with(|first| first == face as usize, |_| true),
-            undecided: self.with(|first| first == UNDECIDED, |_| true),
-        }
+            shown: shown[point],
+            undecided: undecided[point],
+        })
     }
 
     /// Share of the tosses that show a face at the first point.
     pub(crate) fn share(&self, face: Face) -> f64 {
-        self.seen(face).share()
+        self.seen(face)[0].share()
     }
 
     /// How far the probability of a face is higher at the second point, and the standard error of that, by
@@ -466,7 +458,7 @@ mod tests {
         (table[UNDECIDED][UNDECIDED], table[LEFT][LEFT]) = (3, 7);
         let changes = changes(table);
         assert_eq!((changes.tosses(), changes.changed()), (10_010, 160));
-        assert_eq!(changes.seen(Face::Side).undecided, 3);
+        assert_eq!(changes.seen(Face::Side)[0].undecided, 3);
         assert!((changes.share(Face::Side) - 4890.0 / 10_010.0).abs() < 1e-12);
         let (change, error) = changes.difference(Face::Side);
         assert!((change - 30.0 / 10_010.0).abs() < 1e-12);

@@ -335,6 +335,17 @@ impl ImpactLaw for HalfSineImpact {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::impact_law::tests::impact;
+    use crate::motion::tests::on_corner;
+    use coinmc_core::Breaks;
+    use coinmc_testkit::scene;
+
+    fn law(time: f64, peak: Option<f64>) -> HalfSineImpact {
+        HalfSineImpact {
+            time: Time::Given(time),
+            peak,
+        }
+    }
 
     fn pulse() -> Pulse {
         Pulse {
@@ -408,33 +419,19 @@ mod tests {
     /// push more strongly, with friction in proportion. One that would sink in gets what stops the corner.
     #[test]
     fn a_limited_force_limits_the_impulse() {
-        let scene = coinmc_testkit::scene(1.0, 0.5, 0.3);
-        let shape = Shape::new(&scene.coin);
-        let mut motion = crate::motion::tests::on_corner(0, 0.3, 0.2, 0.1);
+        let shape = Shape::new(&scene(1.0, 0.5, 0.3).coin);
+        let mut motion = on_corner(0, 0.3, 0.2, 0.1);
         motion.vz -= 0.7;
-        let mut breaks = coinmc_core::Breaks::default();
-        let mut impact = Impact {
-            motion: &mut motion,
-            shape: &shape,
-            restitution: 0.5,
-            friction: 0.3,
-            tolerance: 1e-6,
-            breaks: &mut breaks,
-            record: crate::impact_law::ImpactRecord::default(),
-        };
+        let mut breaks = Breaks::default();
+        let mut impact = impact(&mut motion, &shape, &mut breaks);
         let (sin, cos) = sin_cos(0.3);
         let matrix = ContactMatrix::new(sin, cos, shape.k);
         let velocity = (0.1, -0.7);
         let of = |e| Moreau.impulse(matrix, velocity.0, velocity.1, e, 0.3);
         let (wanted, least) = (of(0.5), of(0.0));
         let time = 0.02;
-        let mut with_peak = |peak| {
-            let law = HalfSineImpact {
-                time: Time::Given(time),
-                peak,
-            };
-            law.impulse_within_limits(matrix, velocity, &mut impact, time)
-        };
+        let mut with_peak =
+            |peak| law(time, peak).impulse_within_limits(matrix, velocity, &mut impact, time);
         assert_eq!(with_peak(None).z, wanted.z);
         let middle = 0.5 * (wanted.z + least.z);
         let limited = with_peak(Some(PI * middle / (2.0 * time)));
@@ -463,26 +460,14 @@ mod tests {
     /// gravity has used up stays.
     #[test]
     fn the_corner_decides_whether_the_coin_separates() {
-        let scene = coinmc_testkit::scene(1.0, 0.5, 0.3);
-        let shape = Shape::new(&scene.coin);
+        let shape = Shape::new(&scene(1.0, 0.5, 0.3).coin);
         let resolution = |time: f64, restitution: f64, sign: f64| {
-            let mut motion = crate::motion::tests::on_corner(0, sign * 0.3, sign * 0.5, 0.0);
+            let mut motion = on_corner(0, sign * 0.3, sign * 0.5, 0.0);
             motion.vz -= 0.5;
-            let mut breaks = coinmc_core::Breaks::default();
-            let mut impact = Impact {
-                motion: &mut motion,
-                shape: &shape,
-                restitution,
-                friction: 0.3,
-                tolerance: 1e-9,
-                breaks: &mut breaks,
-                record: crate::impact_law::ImpactRecord::default(),
-            };
-            let law = HalfSineImpact {
-                time: Time::Given(time),
-                peak: None,
-            };
-            let found = law.resolve(&mut impact);
+            let mut breaks = Breaks::default();
+            let mut impact = impact(&mut motion, &shape, &mut breaks);
+            (impact.restitution, impact.tolerance) = (restitution, 1e-9);
+            let found = law(time, None).resolve(&mut impact);
             (found, motion.vz)
         };
         for sign in [1.0, -1.0] {
@@ -496,26 +481,14 @@ mod tests {
     /// A pulse in no time that gives back all of the speed keeps the energy to the tolerance, and that is no gain.
     #[test]
     fn a_lossless_pulse_gains_nothing() {
-        let scene = coinmc_testkit::scene(1.0, 0.5, 0.3);
-        let shape = Shape::new(&scene.coin);
-        let mut motion = crate::motion::tests::on_corner(0, 0.3, 0.2, 0.0);
+        let shape = Shape::new(&scene(1.0, 0.5, 0.3).coin);
+        let mut motion = on_corner(0, 0.3, 0.2, 0.0);
         motion.vz -= 0.7;
         let before = motion.energy(shape.k);
-        let mut breaks = coinmc_core::Breaks::default();
-        let mut impact = Impact {
-            motion: &mut motion,
-            shape: &shape,
-            restitution: 1.0,
-            friction: 0.0,
-            tolerance: 1e-4,
-            breaks: &mut breaks,
-            record: crate::impact_law::ImpactRecord::default(),
-        };
-        let law = HalfSineImpact {
-            time: Time::Given(1e-7),
-            peak: None,
-        };
-        assert_eq!(law.resolve(&mut impact), Resolution::Separates);
+        let mut breaks = Breaks::default();
+        let mut impact = impact(&mut motion, &shape, &mut breaks);
+        (impact.restitution, impact.friction, impact.tolerance) = (1.0, 0.0, 1e-4);
+        assert_eq!(law(1e-7, None).resolve(&mut impact), Resolution::Separates);
         assert!((motion.energy(shape.k) / before - 1.0).abs() < 1e-5);
         assert_eq!(breaks.energy_gains, 0);
     }

@@ -193,7 +193,7 @@ fn converged(plan: &Plan, point: usize, changes: &Changes, intervals: usize) -> 
     Converged {
         point,
         parameters: parameters.iter().filter(swept).cloned().collect(),
-        p: Face::ALL.map(|face| changes.seen(face).estimate(plan)),
+        p: Face::ALL.map(|face| changes.seen(face)[0].estimate(plan)),
         shifts: Face::ALL.map(|face| shift(face, plan.confidence)),
         is_biased: Face::ALL.map(is_biased),
         changed: changes.changed(),

@@ -35,7 +35,7 @@ pub use picture::picture_of_ranking;
 
 use crate::interval::Interval;
 use crate::scenes::Assumption;
-use crate::sensitivity::{LEAST_TOSSES, Parameter, not_varied, parameters};
+use crate::sensitivity::{LEAST_TOSSES, each_varied, parameters};
 use crate::span::Span;
 use crate::workers::At;
 use crate::{QuestionError, Template, Workers};
@@ -187,7 +187,8 @@ pub fn rank(
     check(question)?;
     let (own, spelled_out) = template.spelled_out()?;
     let unknowns = &question.unknowns;
-    let values = values(&own, unknowns, &parameters(template)?)?;
+    let keys = unknowns.iter().map(|unknown| unknown.key.as_str());
+    let values = each_varied(&parameters(template)?, keys, |key| own.number(key))?;
     // every problem at an end of a range is found before the first toss
     let ends = ends(&spelled_out, unknowns)?;
     let (p, at_ends) = tornado(question, &own, &ends, workers)?;
@@ -279,26 +280,6 @@ fn check(question: &Rank) -> Result<(), QuestionError> {
     QuestionError::of_all(refused).map_or(Ok(()), Err)
 }
 
-/// The numbers of the config itself.
-fn values(
-    own: &Plan,
-    unknowns: &[Unknown],
-    known: &[Parameter],
-) -> Result<Vec<f64>, QuestionError> {
-    let (mut values, mut lacking) = (vec![], vec![]);
-    for Unknown { key, .. } in unknowns {
-        match own.number(key) {
-            Some(value) => values.push(value),
-            None => lacking.push(key.as_str()),
-        }
-    }
-    if lacking.is_empty() {
-        Ok(values)
-    } else {
-        Err(not_varied(known, &lacking))
-    }
-}
-
 /// The plans at both ends of all ranges.
 fn ends(template: &Template, unknowns: &[Unknown]) -> Result<Vec<Plan>, QuestionError> {
     let ends = unknowns
@@ -324,9 +305,9 @@ fn tornado(
     let at = |plan| At { plan, point: 0 };
     let ends: Vec<_> = ends.iter().map(at).collect();
     let changes = workers.compare_with(at(own), &ends, 0..question.tosses)?;
-    let p = changes[0].seen(question.face).estimate(own);
+    let p = changes[0].seen(question.face)[0].estimate(own);
     let ends = changes.iter().map(|changes| {
-        let seen = changes.seen_at_second(question.face);
+        let [_, seen] = changes.seen(question.face);
         let Estimate { p, lo, hi, .. } = seen.estimate(own);
         let p = Interval { value: p, lo, hi };
         let undecided = seen.undecided;

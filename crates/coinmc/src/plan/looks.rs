@@ -213,28 +213,19 @@ impl Looks {
     /// If the tally is empty.
     pub fn forecast(&self, tally: &Tally) -> u64 {
         assert!(tally.tosses() > 0);
-        let confidence = 1.0 - FIRST_SHARE * self.alpha;
-        let undecided = if self.lets_hope(tally, confidence) {
-            share_undecided(tally)
-        } else {
-            0.0
-        };
-        let needed =
-            |errors, seen: u64| self.needed((tally, seen as f64), undecided, errors, confidence);
-        let exactly = needed(0.0, 1);
+        let (confidence, undecided) = (self.first_confidence(), self.hoped_undecided(tally));
+        let needed = self.needed((tally, 1.0), undecided.unwrap_or(0.0), 0.0, confidence);
         if self.limit < LEAST_WITH_PILOT {
-            return ceil(exactly).min(self.limit);
+            return ceil(needed).min(self.limit);
         }
-        let (mut pilot, mut at_most);
-        pilot = PILOT;
+        let mut pilot = PILOT;
         loop {
-            at_most = needed(MARGIN, pilot).min(MOST_MARGIN * exactly);
-            if !self.pilot_goes_on(pilot, exactly, at_most) {
-                break;
+            let at_most = self.needed_at_most((tally, pilot as f64), undecided, needed);
+            if !self.pilot_goes_on(pilot, needed, at_most) {
+                return ceil(at_most).saturating_add(pilot).min(self.limit);
             }
             pilot *= 2;
         }
-        ceil(at_most).saturating_add(pilot).min(self.limit)
     }
 
     /// Lets the pilot be a part of at most `tosses` in all.
@@ -245,19 +236,10 @@ impl Looks {
     /// Makes the pilot twice as long, or sizes the first stage that counts.
     fn size(&mut self, tally: &Tally) {
         let made = self.stage.end;
-        // as the first look would have it
-        let confidence = 1.0 - FIRST_SHARE * self.alpha;
-        // without hope as many tosses as if all had a face: more would not make the intervals much shorter
-        let hopeless = !self.lets_hope(tally, confidence);
-        let undecided = if hopeless {
-            0.0
-        } else {
-            share_undecided(tally)
-        };
+        let undecided = self.hoped_undecided(tally);
         let seen = (tally, tally.tosses() as f64);
-        let needed = self.needed(seen, undecided, 0.0, confidence);
-        let needed_at_most = self.needed(seen, undecided, MARGIN, confidence);
-        let needed_at_most = needed_at_most.min(MOST_MARGIN * needed);
+        let needed = self.needed(seen, undecided.unwrap_or(0.0), 0.0, self.first_confidence());
+        let needed_at_most = self.needed_at_most(seen, undecided, needed);
         if self.pilot_goes_on(made, needed, needed_at_most) {
             self.stage = made..2 * made;
             return;
@@ -267,10 +249,29 @@ impl Looks {
         let counted = ceil(needed_at_most).checked_next_multiple_of(MULTIPLE);
         let end = made.saturating_add(counted.unwrap_or(u64::MAX));
         self.stage = made..end.min(self.limit);
-        if hopeless {
+        if undecided.is_none() {
             self.hopeless = true;
             self.limit = self.stage.end;
         }
+    }
+
+    /// The confidence of the first look.
+    fn first_confidence(&self) -> f64 {
+        1.0 - FIRST_SHARE * self.alpha
+    }
+
+    /// The share of undecided tosses, if some number of tosses meets the targets in spite of it. Without hope as many are
+    /// made as if all had a face: more would not make the intervals much shorter.
+    fn hoped_undecided(&self, tally: &Tally) -> Option<f64> {
+        self.lets_hope(tally, self.first_confidence())
+            .then(|| share_undecided(tally))
+    }
+
+    /// Tosses at which the first look is, with the margin for the error of so many, where `needed` are without.
+    fn needed_at_most(&self, seen: (&Tally, f64), undecided: Option<f64>, needed: f64) -> f64 {
+        let undecided = undecided.unwrap_or(0.0);
+        self.needed(seen, undecided, MARGIN, self.first_confidence())
+            .min(MOST_MARGIN * needed)
     }
 
     /// Whether a pilot of so many tosses becomes twice as long, as it says that so many are needed and, by its own error,

@@ -126,15 +126,11 @@ fn unanswered(error: QuestionError) -> Unanswered {
 /// The answer, and what it rests on.
 struct Answered {
     scene: Option<EverydayScene>,
-    /// The scene in words, with what the command line changes of it.
-    described: String,
     answer: Answer,
     /// Effects of the scene's assumptions on its only root.
     effects: Vec<Effect>,
     /// Whether they are left out because a sweep has several curves.
     unweighed: bool,
-    /// What the command line gives in place of the config's diameter.
-    other_size: Option<OtherSize>,
 }
 
 impl Fair {
@@ -146,11 +142,10 @@ impl Fair {
         let (scene, template) = self.scene.template()?;
         let other_size = self.other_size(scene, &template);
         let template = self.sized(template)?;
-        let mut answered = ask(console, &self.answer, |workers| {
+        let answered = ask(console, &self.answer, |workers| {
             self.answer(scene, &template, workers).map_err(unanswered)
         })?;
-        answered.other_size = other_size;
-        self.present(&answered, console)
+        self.present(&answered, other_size, console)
     }
 
     /// The scene with coins of the size that the command line gives, if any.
@@ -210,14 +205,11 @@ impl Fair {
             effects =
                 assumptions::effects(template, &answer, root, assumed, self.assumptions, workers)?;
         }
-        let overrides = self.scene.overrides();
         Ok(Answered {
-            described: scene.map_or_else(String::new, |scene| scene.described(overrides)),
             scene,
             unweighed: scene.is_some() && self.assumptions > 0 && answer.curves.len() > 1,
             answer,
             effects,
-            other_size: None,
         })
     }
 
@@ -240,14 +232,27 @@ impl Fair {
         assumed.filter(move |assumed| !(sized && assumed.key == "coin.radius_m"))
     }
 
-    fn present(&self, answered: &Answered, console: &Console) -> Result<Outcome, Failure> {
+    fn present(
+        &self,
+        answered: &Answered,
+        other_size: Option<OtherSize>,
+        console: &Console,
+    ) -> Result<Outcome, Failure> {
+        let overrides = self.scene.overrides();
         match console.format() {
             Format::Json => output::print_json(&questions::document(
                 &answered.answer,
-                (answered.scene.as_ref(), self.scene.overrides()),
+                (answered.scene.as_ref(), overrides),
                 &answered.effects,
             )),
-            Format::Table => output::print(&report::text(answered, self.show, console.stdout())),
+            Format::Table => {
+                let shown = report::Shown {
+                    overrides,
+                    other_size,
+                    search: self.show,
+                };
+                output::print(&report::text(answered, &shown, console.stdout()))
+            }
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
         let curves = &answered.answer.curves;

@@ -7,22 +7,32 @@ use crate::terminal::{
     Colors, Style, compact, decimals_for, decimals_that_show, grouped, in_ascii, signed, tosses,
     wrapped,
 };
+use coinmc::config::Override;
 use coinmc_core::Coin;
 use coinmc_questions::assumptions::Effect;
 use coinmc_questions::{Curve, Fair, Finding, Root, Scanned};
 
+/// What the command line has to do with the text of an answer.
+pub(super) struct Shown<'a> {
+    /// What it changes of the scene.
+    pub(super) overrides: &'a [Override],
+    /// What it gives in place of the config's diameter.
+    pub(super) other_size: Option<OtherSize>,
+    /// Whether it asks how the search went.
+    pub(super) search: bool,
+}
+
 /// The whole answer.
-pub(super) fn text(answered: &Answered, show: bool, style: &Style) -> String {
+pub(super) fn text(answered: &Answered, shown: &Shown<'_>, style: &Style) -> String {
     let Answered {
         scene,
-        described,
         answer,
         effects,
         unweighed,
-        other_size,
     } = answered;
     let mut text = String::new();
     if let Some(scene) = scene {
+        let described = scene.described(shown.overrides);
         let line = format!("Scene {}: {described}.", scene.name);
         text += &wrapped(&line, style.width, 0);
     }
@@ -36,7 +46,7 @@ pub(super) fn text(answered: &Answered, show: bool, style: &Style) -> String {
     );
     text += &format!("{}\n", style.paint(Colors::Strong, &title));
     for curve in &answer.curves {
-        text += &of_curve(answer, curve, *other_size, show, style);
+        text += &of_curve(answer, curve, shown, style);
     }
     if !effects.is_empty() {
         text += &assumptions(effects, style);
@@ -60,13 +70,7 @@ fn target(p: f64) -> String {
     }
 }
 
-fn of_curve(
-    answer: &Fair,
-    curve: &Curve,
-    other_size: Option<OtherSize>,
-    show: bool,
-    style: &Style,
-) -> String {
+fn of_curve(answer: &Fair, curve: &Curve, shown: &Shown<'_>, style: &Style) -> String {
     let mut text = String::new();
     if !curve.at.is_empty() {
         let at = curve
@@ -77,7 +81,7 @@ fn of_curve(
     }
     for finding in &curve.findings {
         text += &match finding {
-            Finding::Root(root) => of_root(answer, root, style) + &of_size(root, other_size),
+            Finding::Root(root) => of_root(answer, root, style) + &of_size(root, shown.other_size),
             Finding::Near { from, to } => format!(
                 "    none seen, but P comes too near to the target to tell {}\n",
                 stretch(*from, *to)
@@ -87,7 +91,7 @@ fn of_curve(
     if curve.findings.is_empty() {
         text += &nowhere(answer, curve);
     }
-    if show {
+    if shown.search {
         text += &history(answer, curve, style);
     }
     text

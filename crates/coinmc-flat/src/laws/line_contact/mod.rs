@@ -238,7 +238,7 @@ fn apply(motion: &mut Motion, shape: &Shape, state: &ImpactState) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::impact_law::ImpactRecord;
+    use crate::impact_law::tests::impact;
     use crate::motion::tests::on_corner;
     use coinmc_core::Breaks;
     use coinmc_testkit::scene;
@@ -291,18 +291,6 @@ mod tests {
                 assert_eq!(seen, [true; CORNERS]);
                 assert_eq!(found[0].gap, 0.0);
             }
-        }
-    }
-
-    fn impact<'a>(motion: &'a mut Motion, shape: &'a Shape, breaks: &'a mut Breaks) -> Impact<'a> {
-        Impact {
-            motion,
-            shape,
-            restitution: 0.5,
-            friction: 0.3,
-            tolerance: 1e-6,
-            breaks,
-            record: ImpactRecord::default(),
         }
     }
 
