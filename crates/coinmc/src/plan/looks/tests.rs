@@ -382,6 +382,12 @@ fn a_forecast_is_what_is_tossed_in_the_end() {
         let forecast = Looks::new(targets, 0.95).forecast(&mean(4096, heads, side));
         let ratio = forecast as f64 / looks.stage().end as f64;
         assert!((0.94..1.06).contains(&ratio), "{half_width}: {ratio}");
+        // with the very pilot that the looks have, and the margin of its error
+        let (tally, fresh) = (mean(4096, heads, side), Looks::new(targets, 0.95));
+        let needed = fresh.needed((&tally, 1.0), 0.0, 0.0, fresh.first_confidence());
+        let seen = (&tally, looks.pilot() as f64);
+        let at_most = fresh.needed_at_most(seen, fresh.hoped_undecided(&tally), needed);
+        assert_eq!(forecast, ceil(at_most) + looks.pilot());
     }
     // at the limit there is none
     let short = Targets {
