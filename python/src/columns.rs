@@ -131,8 +131,9 @@ impl<'a> Ends<'a> {
         tilt: Option<TableTilt>,
     ) {
         self.time_s[i] = toss.end.time_s;
-        let end = tilt.map_or(toss.end, |tilt| tilt.state_in_laboratory(&toss.end));
-        write_state(&end, start, &mut self.last[i * ROW..(i + 1) * ROW]);
+        let mut end = tilt.map_or(toss.end, |tilt| tilt.state_in_laboratory(&toss.end));
+        start.apply(&mut end);
+        write_state(&end, &mut self.last[i * ROW..(i + 1) * ROW]);
     }
 }
 

@@ -115,25 +115,30 @@ impl<'a> Start<'a> {
             Self::Nowhere(row)
         }
     }
+
+    /// Moves a state of the toss to where it is.
+    pub(crate) fn apply(self, state: &mut State) {
+        match self {
+            Self::At([x, y]) => {
+                state.position_m.x += x;
+                state.position_m.y += y;
+            }
+            // but for the axis, which the launch may give with any length
+            Self::Nowhere(row) => {
+                state.position_m = vector(row, 0);
+                state.velocity_m_s = vector(row, 1);
+                state.spin_rad_s = vector(row, 3);
+            }
+        }
+    }
 }
 
 /// Writes a state of a toss into a row.
-pub(crate) fn write_state(state: &State, start: Start<'_>, row: &mut [f64]) {
+pub(crate) fn write_state(state: &State, row: &mut [f64]) {
     row[..3].copy_from_slice(state.position_m.as_slice());
     row[3..6].copy_from_slice(state.velocity_m_s.as_slice());
     row[6..9].copy_from_slice(state.axis.as_slice());
     row[9..].copy_from_slice(state.spin_rad_s.as_slice());
-    match start {
-        Start::At([x, y]) => {
-            row[0] += x;
-            row[1] += y;
-        }
-        // but for the axis, which the launch may give with any length
-        Start::Nowhere(launch) => {
-            row[..6].copy_from_slice(&launch[..6]);
-            row[9..].copy_from_slice(&launch[9..]);
-        }
-    }
 }
 
 fn is_finite(numbers: &[f64]) -> bool {

@@ -30,7 +30,7 @@ pub(crate) fn trace<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let row = row.as_ref().map(PyReadonlyArray1::as_slice).transpose()?;
     let trace = recorded(py, plan, (point, toss), row, rate_hz)?;
-    as_dict(py, &trace, row.map_or(Start::MIDDLE, Start::of))
+    as_dict(py, &trace)
 }
 
 /// Records a toss like [`trace`], into a new file whose extension says the format.
@@ -93,10 +93,17 @@ fn recorded(
             None => replay(&plan, point, toss, rate_hz),
         }
     })?;
-    trace.map_err(|error| errors::trace(&error))
+    let mut trace = trace.map_err(|error| errors::trace(&error))?;
+    if let Some(row) = row {
+        let start = Start::of(row);
+        for record in &mut trace.records {
+            start.apply(&mut record.state);
+        }
+    }
+    Ok(trace)
 }
 
-fn as_dict<'py>(py: Python<'py>, trace: &Trace, start: Start<'_>) -> PyResult<Bound<'py, PyDict>> {
+fn as_dict<'py>(py: Python<'py>, trace: &Trace) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("engine", trace.engine)?;
     dict.set_item("rate_hz", trace.rate_hz)?;
@@ -111,8 +118,8 @@ fn as_dict<'py>(py: Python<'py>, trace: &Trace, start: Start<'_>) -> PyResult<Bo
     let all: Vec<&Record> = trace.records.iter().collect();
     let samples: Vec<&Record> = all.iter().copied().filter(|r| is_sample(r)).collect();
     let events: Vec<&Record> = all.into_iter().filter(|r| is_event(r)).collect();
-    dict.set_item("samples", columns(py, &samples, start)?)?;
-    dict.set_item("events", columns(py, &events, start)?)?;
+    dict.set_item("samples", columns(py, &samples)?)?;
+    dict.set_item("events", columns(py, &events)?)?;
     Ok(dict)
 }
 
@@ -128,11 +135,7 @@ fn is_event(record: &Record) -> bool {
     matches!(record.kind, RecordKind::Event(_))
 }
 
-fn columns<'py>(
-    py: Python<'py>,
-    records: &[&Record],
-    start: Start<'_>,
-) -> PyResult<Bound<'py, PyDict>> {
+fn columns<'py>(py: Python<'py>, records: &[&Record]) -> PyResult<Bound<'py, PyDict>> {
     let numbers = |of: fn(&Record) -> f64| -> Bound<'py, PyArray1<f64>> {
         let values: Vec<f64> = records.iter().map(|record| of(record)).collect();
         values.into_pyarray(py)
@@ -140,7 +143,7 @@ fn columns<'py>(
     let mut states = vec![0.0; records.len() * ROW];
     let mut turns = Vec::with_capacity(records.len() * 4);
     for (record, row) in records.iter().zip(states.chunks_exact_mut(ROW)) {
-        write_state(&record.state, start, row);
+        write_state(&record.state, row);
         let q = &record.orientation;
         turns.extend([q.w, q.i, q.j, q.k]);
     }

@@ -111,6 +111,7 @@ def test_a_trace_is_saved_as_on_the_command_line(examples, command, tmp_path):
 
 def test_a_launch_of_ones_own_is_saved_as_it_was_recorded(scene, tmp_path):
     launches = coinmc.launches(scene, 3)
+    launches["position_m"][2, :2] += (1.5, -0.25)
     trace = coinmc.trace(scene, launch=launches[2:], rate_hz=50)
     trace.save(tmp_path / "own.csv")
     with (tmp_path / "own.csv").open(newline="") as file:
@@ -118,4 +119,9 @@ def test_a_launch_of_ones_own_is_saved_as_it_was_recorded(scene, tmp_path):
     times = trace.samples["time_s"][:-1]
     assert [float(row["time_s"]) for row in rows] == times.tolist()
     drawn = coinmc.trace(scene, 2, rate_hz=50)
+    for axis, name in enumerate(("x_m", "y_m")):
+        at = trace.samples["position_m"][:-1, axis]
+        assert [float(row[name]) for row in rows] == at.tolist()
+        shift = at - drawn.samples["position_m"][:-1, axis]
+        assert shift == pytest.approx((1.5, -0.25)[axis], abs=1e-12)
     assert [float(row["z_m"]) for row in rows] == drawn.samples["position_m"][:-1, 2].tolist()

@@ -60,18 +60,24 @@ fn merge_all(
         plan,
         manifest,
         parts,
-        found,
-    } = Gathered::from(inputs, sink)?;
+        mut found,
+    } = Gathered::from(inputs, Some(out), sink)?;
     let mut schedule = Schedule::new(&plan, Part::WHOLE, finished(&found));
     let missing = what_is_missing(&plan, &mut schedule, &parts);
     if let Some(missing) = missing.clone().filter(|_| !partly) {
         return Err(RunError::Missing(missing));
     }
+    found.retain(|found| found.input < inputs.len());
     let directory = RunDirectory::open_with(out, &plan, manifest, sink);
     let directory = directory.map_err(|error| with_changes(error, &plan, out))?;
     store(&plan, found, &directory, inputs, out, sink)?;
     let report = conclude(&plan, Part::WHOLE, schedule, &directory, sink)?;
     Ok((report, missing))
+}
+
+/// Whether the directory holds the run already, in whole or in part.
+fn holds_run_of(dir: &Path, manifest: &Manifest) -> bool {
+    read_manifest(dir).is_ok_and(|theirs| theirs.must_be_same_run(manifest, dir).is_ok())
 }
 
 /// What run directories of one run lack together; `None` if nothing. They are only read, and may still be
@@ -80,7 +86,7 @@ fn merge_all(
 /// # Errors
 /// Those of [`merge`] but [`RunError::Missing`].
 pub fn missing(inputs: &[PathBuf], sink: &dyn ProgressSink) -> Result<Option<Missing>, RunError> {
-    let gathered = Gathered::from(inputs, sink)?;
+    let gathered = Gathered::from(inputs, None, sink)?;
     let finished = finished(&gathered.found);
     let mut schedule = Schedule::new(&gathered.plan, Part::WHOLE, finished);
     Ok(what_is_missing(
@@ -100,7 +106,12 @@ struct Gathered {
 }
 
 impl Gathered {
-    fn from(inputs: &[PathBuf], sink: &dyn ProgressSink) -> Result<Self, RunError> {
+    /// What the parts hold, and `out`, if it holds some of the run already.
+    fn from(
+        inputs: &[PathBuf],
+        out: Option<&Path>,
+        sink: &dyn ProgressSink,
+    ) -> Result<Self, RunError> {
         let (mut run, mut parts, mut errors) = (None, Vec::new(), Vec::new());
         for input in inputs {
             match add_part(&mut run, input) {
@@ -113,7 +124,9 @@ impl Gathered {
         }
         let (plan, manifest) = run.ok_or(RunError::NothingToMerge)?;
         let plan = Arc::new(plan);
-        let found = collect(&plan, &manifest.plan_hash, inputs, sink)?;
+        let there = out.filter(|out| holds_run_of(out, &manifest));
+        let dirs: Vec<_> = inputs.iter().map(PathBuf::as_path).chain(there).collect();
+        let found = collect(&plan, &manifest.plan_hash, &dirs, sink)?;
         Ok(Self {
             plan,
             manifest,
@@ -174,7 +187,7 @@ fn finished(found: &[Found]) -> Finished {
     Finished::new(results.map(|found| (found.chunk.clone(), found.result.clone())))
 }
 
-/// The result of a chunk and the run directory it came from.
+/// The result of a chunk and the run directory it came from, the last one for what is there already.
 struct Found {
     chunk: Chunk,
     result: Packed,
@@ -196,16 +209,16 @@ fn must_differ(input: &Path, out: &Path) -> Result<(), RunError> {
     }
 }
 
-/// All chunks of the parts, each once, in the order of points and tosses.
+/// All chunks of run directories, each once, in the order of points and tosses.
 fn collect(
     plan: &Plan,
     plan_hash: &str,
-    inputs: &[PathBuf],
+    dirs: &[&Path],
     sink: &dyn ProgressSink,
 ) -> Result<Vec<Found>, RunError> {
     let cut = Cut::new(plan);
     let mut collected = Vec::new();
-    for (input, dir) in inputs.iter().enumerate() {
+    for (input, dir) in dirs.iter().enumerate() {
         let tallies = Tallies::of(dir, plan_hash.to_owned());
         tallies.scan(plan, &cut, |entry| {
             match entry {
@@ -233,8 +246,8 @@ fn collect(
     if let Some([first, second]) = collected.windows(2).find(disagree) {
         return Err(RunError::Conflict {
             chunk: first.chunk.clone(),
-            first: inputs[first.input].clone(),
-            second: inputs[second.input].clone(),
+            first: dirs[first.input].to_owned(),
+            second: dirs[second.input].to_owned(),
         });
     }
     collected.dedup_by_key(|found| found.key());
