@@ -10,8 +10,8 @@
 //! ```
 //!
 //! right to the second order of s. Where the range of θ ends before that, as that of a restitution of 1, the two
-//! values are θ/(1 + s) and θ, or θ and θ(1 + s), which is right to the first order. The elasticity is d ln P/d ln θ: by how many per cent P grows if θ
-//! does by one.
+//! values are θ/(1 + s) and θ, or θ and θ(1 + s), which is right to the first order. The elasticity is d ln P/d ln θ, by how many per cent P grows if θ
+//! does by one: the derivative divided by the mean of both P.
 //!
 //! Near a root x* of P(x, θ) = target, dx*/d ln θ = −(dP/d ln θ)/(dP/dx).
 
@@ -46,7 +46,7 @@ pub struct Sensitivity {
     pub values: [f64; 2],
     /// dP/d ln(parameter) of heads, tails and side.
     pub faces: [Interval; 3],
-    /// Share of the tosses that show each face, with the first value.
+    /// Share of the tosses that show each face, the mean of those with either value.
     pub p: [f64; 3],
     /// Undecided tosses with either value. The intervals hold whatever they would have shown.
     pub undecided: [u64; 2],
@@ -73,7 +73,8 @@ impl Sensitivity {
     /// so its interval allows for a P that is as much higher.
     pub fn elasticity(&self, face: Face) -> Interval {
         let least = self.p[face as usize];
-        let most = least + self.undecided[0] as f64 / self.tosses as f64;
+        let [first, second] = self.undecided.map(|undecided| undecided as f64);
+        let most = least + 0.5 * (first + second) / self.tosses as f64;
         let Interval { value, lo, hi } = self.of(face);
         Interval {
             value: value / least,
@@ -305,7 +306,7 @@ fn sensitivity(moved: Moved, changes: &Changes, step: f64) -> Sensitivity {
         parameter: moved.parameter,
         values: moved.values,
         faces,
-        p: Face::ALL.map(|face| changes.share(face)),
+        p: Face::ALL.map(|face| changes.mean_share(face)),
         undecided: changes.undecided(),
         changed: changes.changed() as f64 / changes.tosses() as f64,
         tosses: changes.tosses(),
