@@ -142,10 +142,9 @@ fn clopper_pearson(k: u64, n: u64, tail: f64) -> (f64, f64) {
 /// # Example
 /// ```
 /// use coinmc_core::student_t_quantile;
-/// assert!((student_t_quantile(15, 0.025) - 2.131_449_545_559_323).abs() < 1e-9);
+/// assert!((student_t_quantile(15.0, 0.025) - 2.131_449_545_559_323).abs() < 1e-9);
 /// ```
-pub fn student_t_quantile(dof: u32, tail: f64) -> f64 {
-    let dof = f64::from(dof);
+pub fn student_t_quantile(dof: f64, tail: f64) -> f64 {
     let (x, rest) = beta_quantile(dof / 2.0, 0.5, 2.0 * tail);
     (dof * rest / x).sqrt()
 }

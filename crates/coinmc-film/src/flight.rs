@@ -27,7 +27,7 @@ pub(crate) struct Flight {
 /// For white noise the difference y₀ − 3y₁ + 3y₂ − y₃ has the variance 20σ², and the median of its
 /// absolute value is 0.6745 standard deviations.
 pub(crate) fn noise(drops: &[FilmedDrop]) -> [f64; 3] {
-    let mut noise = MIN_NOISE;
+    let mut noise = [None; 3];
     for coordinate in Coordinate::ALL {
         let c = coordinate.index();
         let mut third: Vec<f64> = drops
@@ -43,11 +43,19 @@ pub(crate) fn noise(drops: &[FilmedDrop]) -> [f64; 3] {
                 Some((steps[2] - 2.0 * steps[1] + steps[0]).abs())
             })
             .collect();
-        if let Some(middle) = median(&mut third) {
-            noise[c] = noise[c].max(middle / 0.6745 / 20.0_f64.sqrt());
-        }
+        noise[c] =
+            median(&mut third).map(|middle| MIN_NOISE[c].max(middle / 0.6745 / 20.0_f64.sqrt()));
     }
-    noise
+    of_one_camera(noise, MIN_NOISE)
+}
+
+/// The noise of each coordinate: that found, that of the other length in the same picture, or else the one given.
+pub(crate) fn of_one_camera([x, z, theta]: [Option<f64>; 3], else_: [f64; 3]) -> [f64; 3] {
+    [
+        x.or(z).unwrap_or(else_[0]),
+        z.or(x).unwrap_or(else_[1]),
+        theta.unwrap_or(else_[2]),
+    ]
 }
 
 /// Finds the flight: the frames before z leaves its parabola. `None` if it is too short.
@@ -216,6 +224,21 @@ mod tests {
             for (found, added) in found.into_iter().zip(added) {
                 assert!((found / added - 1.0).abs() < 0.12, "{found} {added}");
             }
+        }
+    }
+
+    /// Of a length that is hardly marked the noise is that of the other one, as a camera sees both alike.
+    #[test]
+    fn a_length_without_differences_is_as_noisy_as_the_other() {
+        let added = [5e-4, 2e-4, 1e-2];
+        for rare in [0, 1] {
+            let mut drop = frames(4000, 3.0, added);
+            for frame in &mut drop.frames[2..] {
+                frame.seen[rare] = None;
+            }
+            let found = noise(&[drop]);
+            assert_eq!(found[0], found[1]);
+            assert!((found[rare] / added[1 - rare] - 1.0).abs() < 0.12);
         }
     }
 

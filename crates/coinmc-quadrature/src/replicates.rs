@@ -52,7 +52,10 @@ impl Goal {
     /// The intervals after `points` points of each replicate, given its sums of heads, tails and
     /// side. `counts`: some evaluations give one face or none instead of probabilities.
     pub(crate) fn shares(&self, sums: &[[f64; 3]], points: u64, counts: bool) -> [Share; 3] {
-        let t = student_t_quantile(REPLICATES - 1, (1.0 - self.look_confidence()) / 2.0);
+        let t = student_t_quantile(
+            f64::from(REPLICATES - 1),
+            (1.0 - self.look_confidence()) / 2.0,
+        );
         let mean = |sum: f64| sum / points as f64;
         // counts have a grain: if only one dimension matters, all sixteen replicates may count the
         // same number next to the true share, less than half a point away (probability 2^-16)

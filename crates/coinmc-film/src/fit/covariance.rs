@@ -2,6 +2,7 @@
 
 use super::problem::{Deviation, Problem, Unknown};
 use crate::drop::Coordinate;
+use crate::flight::of_one_camera;
 use coinmc_core::{Philox4x64, inverse_normal_cdf, unit_interval};
 use nalgebra_lm::DMatrix;
 
@@ -31,12 +32,11 @@ pub(crate) struct Spread {
 }
 
 impl Spread {
-    /// Degrees of freedom of the noise: the fewest of any coordinate, as each is weighted by its
-    /// own noise.
+    /// Degrees of freedom of the noise: the fewest of any coordinate that is weighted by its own noise.
     pub(crate) fn degrees(&self) -> f64 {
-        let left = (0..3).filter(|c| self.points[*c] > 0.0);
-        let left = left.map(|c| self.points[c] - self.taken[c]);
-        left.fold(f64::INFINITY, f64::min).max(1.0)
+        let left = (0..3).map(|c| self.points[c] - self.taken[c]);
+        let own = left.filter(|degrees| *degrees >= LEAST_DEGREES);
+        own.min_by(f64::total_cmp).unwrap_or(LEAST_DEGREES)
     }
 
     /// A random step, distributed like the errors; the same number gives the same step.
@@ -212,20 +212,21 @@ fn factor(problem: &Problem, deviations: &[Deviation], degrees: f64) -> f64 {
     squares / degrees / (share * share)
 }
 
-/// σ of each coordinate from its residuals, minus the degrees of freedom used by fitting.
+/// σ of each coordinate from its residuals, minus the degrees of freedom used by fitting; of a length that is
+/// marked too seldom that of the other one.
 pub(crate) fn scales(problem: &Problem, taken: &[f64; 3]) -> Option<[f64; 3]> {
     let deviations = problem.deviations()?;
-    let mut sigma = problem.weighing.sigma;
-    for coordinate in Coordinate::ALL {
-        let c = coordinate.index();
+    let found = Coordinate::ALL.map(|coordinate| {
         let of_it: Vec<f64> = of(&deviations, coordinate);
-        let degrees = of_it.len() as f64 - taken[c];
-        if degrees >= 1.0 {
-            sigma[c] = problem.task.loss.scale(&of_it, degrees).max(MIN_SIGMA);
-        }
-    }
-    Some(sigma)
+        let degrees = of_it.len() as f64 - taken[coordinate.index()];
+        let scale = || problem.task.loss.scale(&of_it, degrees).max(MIN_SIGMA);
+        (degrees >= LEAST_DEGREES).then(scale)
+    });
+    Some(of_one_camera(found, problem.weighing.sigma))
 }
+
+/// Degrees of freedom from which a coordinate's noise is told by its own residuals.
+const LEAST_DEGREES: f64 = 1.0;
 
 /// Smallest σ, m and rad, which prevents a division by zero for exact data.
 const MIN_SIGMA: f64 = 1e-9;
@@ -316,7 +317,7 @@ mod tests {
         assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
     }
 
-    /// The fewest of those coordinates that are marked, and never none.
+    /// The fewest of those coordinates whose own residuals tell their noise, and never none.
     #[test]
     fn degrees_are_those_of_the_coordinate_with_fewest() {
         let of = |points, taken| {
@@ -329,7 +330,10 @@ mod tests {
         };
         assert_eq!(of([20.0, 15.0, 30.0], [2.0, 3.0, 25.0]), 5.0);
         assert_eq!(of([0.0, 15.0, 30.0], [0.0, 3.0, 2.5]), 12.0);
-        assert_eq!(of([4.0, 15.0, 30.0], [4.0, 3.0, 2.5]), 1.0);
+        assert_eq!(of([4.0, 15.0, 30.0], [3.0, 3.0, 2.5]), 1.0);
+        // the noise of the first is that of another one
+        assert_eq!(of([4.0, 15.0, 30.0], [3.1, 3.0, 2.5]), 12.0);
+        assert_eq!(of([2.0, 2.0, 2.0], [2.0; 3]), 1.0);
     }
 
     /// M Mᵀ times the kept rows and columns is 1, whatever their units.

@@ -16,7 +16,6 @@ mod profile;
 mod remark;
 mod result;
 mod search;
-mod student;
 
 pub use error::FitError;
 pub use loss::Loss;
@@ -27,6 +26,7 @@ use crate::drop::{FilmedDrop, MAX_FRAMES};
 use crate::flight::{Flight, MIN_FLIGHT, flight, noise};
 use crate::law::Model;
 use crate::parameter::{Parameter, Shared, parameters};
+use coinmc_core::student_t_quantile;
 use covariance::{Spread, scales, spread};
 use problem::{Problem, Task};
 use profile::{End, Profile};
@@ -282,7 +282,7 @@ fn intervals<'a>(
     let around = Profile {
         best: minimum,
         spread,
-        t: student::quantile(options.confidence, spread.degrees()),
+        t: student_t_quantile(spread.degrees(), 0.5 * (1.0 - options.confidence)),
     };
     let mut ends = Vec::new();
     for j in 0..spread.valleys.len() {

@@ -3,11 +3,11 @@
 use super::covariance::{Spread, of};
 use super::problem::{Deviation, Problem, Unknown};
 use super::search::early;
-use super::student::quantile;
 use super::{Loss, Options, Remark};
 use crate::drop::Coordinate;
 use crate::law::Model;
 use crate::parameter::{Parameter, Shared};
+use coinmc_core::student_t_quantile;
 
 /// A fitted shared parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -185,7 +185,7 @@ fn estimates(
 
 fn drops(problem: &Problem, spread: &Spread, options: &Options) -> Option<Vec<FittedDrop>> {
     let task = problem.task;
-    let t = quantile(options.confidence, spread.degrees());
+    let t = student_t_quantile(spread.degrees(), 0.5 * (1.0 - options.confidence));
     let early = early(problem)?;
     let mut drops = Vec::new();
     for (d, filmed) in task.drops.iter().enumerate() {
