@@ -45,7 +45,11 @@ impl Envelope {
         // a click is much louder than a rattle, and says no more
         let even: Vec<f64> = loudness.iter().map(|x| libm::log1p(*x)).collect();
         let slow = smoothed(&even, width(SLOW_S, step_s));
-        let ripple = even.iter().zip(&slow).map(|(x, slow)| x / slow - 1.0);
+        // nothing at all is heard where the mean is 0, and nothing changes there
+        let ripple = even
+            .iter()
+            .zip(&slow)
+            .map(|(x, slow)| if *slow > 0.0 { x / slow - 1.0 } else { 0.0 });
         let at = |place: usize| start_s + place as f64 * step_s;
         let active = longest(
             &smoothed(&loudness, width(ACTIVE_S, step_s)),

@@ -279,6 +279,24 @@ mod tests {
         }
     }
 
+    /// Zeros before the recording, of which a program or a microphone makes some tenths of a second, move all times and
+    /// change nothing else: neither a short silence, nor one that fills a fifth of the whole, nor one longer than all means.
+    #[test]
+    fn digital_silence_before_a_whirr_changes_nothing() {
+        let plain = settling(1.5e-4, 10.0);
+        let heard = Whirr::of(&plain, 15.0).unwrap();
+        let whole = plain.samples.len() as f64 / plain.rate_hz;
+        for silence_s in [0.11, 0.2 * whole, 1.0] {
+            let mut recording = plain.clone();
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let zeros = vec![0.0; (silence_s * plain.rate_hz) as usize];
+            recording.samples.splice(0..0, zeros);
+            let later = Whirr::of(&recording, 15.0).unwrap();
+            let off = later.rate_s2 / heard.rate_s2 - 1.0;
+            assert!(off.abs() < heard.rate_error, "{silence_s}: {later:?}");
+        }
+    }
+
     #[test]
     fn noise_and_a_steady_beat_have_no_whirr() {
         let coin = Coin::cylinder(0.16, 0.0116).unwrap();
