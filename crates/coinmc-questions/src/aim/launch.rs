@@ -9,6 +9,9 @@ use toml::de::{DeTable, DeValue};
 /// Names of the components of a list of three, in keys.
 const COMPONENTS: [&str; 3] = ["x", "y", "z"];
 
+/// The key of the standard deviation of each component of a spin whose axis has any direction.
+const ISOTROPIC: &str = "isotropic_sd_rad_s";
+
 /// A launch, or a part of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Launch {
@@ -102,7 +105,8 @@ impl Launch {
             Self::Number(_) | Self::Word(_) => false,
             Self::List(items) => spread_each(items.iter_mut(), factor),
             Self::Table(entries) => match &mut entries[..] {
-                [(name, parameters)] if name == "normal" => parameters.stretch_normal(factor),
+                [(name, parameters)] if name == "normal" => parameters.stretch("sd", factor),
+                [(name, _)] if name == ISOTROPIC => self.stretch(ISOTROPIC, factor),
                 [(name, parameters)] if name == "uniform" => {
                     let Some([from, to]) = parameters.ends() else {
                         return false;
@@ -127,8 +131,9 @@ impl Launch {
         }
     }
 
-    fn stretch_normal(&mut self, factor: f64) -> bool {
-        let Some(sd) = self.entry("sd") else {
+    /// Multiplies the standard deviation under a key; whether it is any.
+    fn stretch(&mut self, key: &str, factor: f64) -> bool {
+        let Some(sd) = self.entry(key) else {
             return false;
         };
         let spread = *sd > 0.0;
@@ -271,6 +276,35 @@ mod tests {
             panic!("{:?}", found.spin);
         };
         assert_eq!((mean, sd), (238.6, 1.5 * 23.86));
+    }
+
+    /// A spin about any axis has its standard deviation under a key of its own.
+    #[test]
+    fn a_spin_about_any_axis_is_spread_too() {
+        let text = HAND.replace(
+            "launch.preset = 'hand'",
+            "launch = { height_m = 1, velocity_m_s = [0, 0, 0], orientation = 'isotropic', spin.isotropic_sd_rad_s = 8 }",
+        );
+        let (plan, spelled) = Template::new("inline", text, &[])
+            .spelled_out()
+            .expect("a plan");
+        let mut launch = Launch::of(&plan.resolved_toml).expect("a launch");
+        let (mean, sd) = (0.0, 12.0);
+        let cases = [
+            (1.5, Marginal::Normal { mean, sd }),
+            (0.0, Marginal::Constant(0.0)),
+        ];
+        for (factor, component) in cases {
+            assert!(launch.spread(factor));
+            let plan = spelled
+                .plan(&[("launch", launch.to_string())])
+                .expect("a plan");
+            let Spin::Components(components) = plan.points[0].launches.spin else {
+                panic!("{:?}", plan.points[0].launches.spin);
+            };
+            assert_eq!(components, [component; 3]);
+        }
+        assert!(!launch.spread(2.0));
     }
 
     #[test]
