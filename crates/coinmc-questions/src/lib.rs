@@ -21,6 +21,7 @@
 
 mod aim;
 pub mod assumptions;
+mod changes;
 mod compare;
 mod converge;
 mod design;

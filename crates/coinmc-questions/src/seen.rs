@@ -1,6 +1,6 @@
 //! Tosses that were counted.
 
-use crate::workers::{ENDS, UNDECIDED};
+use crate::changes::{ENDS, UNDECIDED};
 use coinmc::plan::Plan;
 use coinmc_core::Estimate;
 

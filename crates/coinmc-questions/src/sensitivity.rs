@@ -15,8 +15,9 @@
 //!
 //! Near a root x* of P(x, θ) = target, dx*/d ln θ = −(dP/d ln θ)/(dP/dx).
 
+use crate::changes::Changes;
 use crate::interval::normal_quantile;
-use crate::workers::{At, Changes};
+use crate::workers::At;
 use crate::{Interval, QuestionError, Root, Template, Workers};
 use coinmc::config::nearest;
 use coinmc::plan::Plan;

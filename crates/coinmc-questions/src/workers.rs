@@ -1,11 +1,10 @@
 //! Tosses on all cores, counted in memory.
 
-use crate::interval::normal_quantile;
-use crate::seen::Seen;
-use crate::{Interval, QuestionError};
+use crate::QuestionError;
+use crate::changes::{Changes, ENDS, PAIRS, UNDECIDED, end_of, table};
 use coinmc::plan::{Plan, Point};
 use coinmc::run::{TossSource, for_each_outcome, stream};
-use coinmc_core::{Face, Outcome, Stream};
+use coinmc_core::{Outcome, Stream};
 use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::panic::resume_unwind;
@@ -39,119 +38,6 @@ pub(crate) struct At<'a> {
 struct Piece {
     work: usize,
     tosses: Range<u64>,
-}
-
-/// The ends that are told apart: heads, tails, side, undecided and left, as numbers from 0.
-pub(crate) const ENDS: usize = 5;
-pub(crate) const UNDECIDED: usize = 3;
-const LEFT: usize = 4;
-const PAIRS: usize = ENDS * ENDS;
-
-/// The number of a toss's end.
-fn end_of(outcome: &Outcome) -> usize {
-    match outcome.face() {
-        Some(face) => face as usize,
-        None if outcome.is_undecided() => UNDECIDED,
-        None => LEFT,
-    }
-}
-
-/// Tosses of a pair of points by the end at the first and the end at the second.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Changes([u64; PAIRS]);
-
-impl Changes {
-    fn with(&self, first: impl Fn(usize) -> bool, second: impl Fn(usize) -> bool) -> u64 {
-        let tosses = self.0.iter().enumerate();
-        let counted = tosses.filter(|(place, _)| first(place / ENDS) && second(place % ENDS));
-        counted.map(|(_, tosses)| tosses).sum()
-    }
-
-    /// All tosses.
-    pub(crate) fn tosses(&self) -> u64 {
-        self.0.iter().sum()
-    }
-
-    /// Tosses whose end differs.
-    pub(crate) fn changed(&self) -> u64 {
-        let same: u64 = (0..ENDS).map(|end| self.0[(ENDS + 1) * end]).sum();
-        self.tosses() - same
-    }
-
-    /// Tosses that show a face at the second point only, and at the first only.
-    pub(crate) fn of(&self, face: Face) -> (u64, u64) {
-        let is = |shown| shown == face as usize;
-        let gained = self.with(|first| !is(first), is);
-        (gained, self.with(is, |second| !is(second)))
-    }
-
-    /// The same if every undecided toss had ended as makes the probability of the face rise least, and most.
-    pub(crate) fn extremes_of(&self, face: Face) -> [(u64, u64); 2] {
-        let is = |shown| shown == face as usize;
-        let may_be = |shown| is(shown) || shown == UNDECIDED;
-        let most_gained = self.with(|first| !is(first), may_be);
-        let most_lost = self.with(may_be, |second| !is(second));
-        let least_gained = self.with(|first| !may_be(first), is);
-        let least_lost = self.with(is, |second| !may_be(second));
-        [(least_gained, most_lost), (most_gained, least_lost)]
-    }
-
-    /// Undecided tosses at the first and at the second point.
-    pub(crate) fn undecided(&self) -> [u64; 2] {
-        self.ended(UNDECIDED)
-    }
-
-    /// Tosses with this end at the first and at the second point.
-    fn ended(&self, end: usize) -> [u64; 2] {
-        let first = self.with(|first| first == end, |_| true);
-        [first, self.with(|_| true, |second| second == end)]
-    }
-
-    /// The tosses at the first and at the second point.
-    pub(crate) fn seen(&self, face: Face) -> [Seen; 2] {
-        let (shown, undecided) = (self.ended(face as usize), self.undecided());
-        [0, 1].map(|point: usize| Seen {
-            tosses: self.tosses(),
-            shown: shown[point],
-            undecided: undecided[point],
-        })
-    }
-
-    /// The mean of the shares of the tosses that show a face at the first and at the second point.
-    pub(crate) fn mean_share(&self, face: Face) -> f64 {
-        let [first, second] = self.seen(face).map(|seen| seen.share());
-        0.5 * (first + second)
-    }
-
-    /// How far the probability of a face is higher at the second point, and the standard error of that, by
-    /// the variance of paired proportions (McNemar, Psychometrika 12 (1947) 153).
-    pub(crate) fn difference(&self, face: Face) -> (f64, f64) {
-        difference(self.of(face), self.tosses())
-    }
-
-    /// How far the probability of a face is higher at the second point, with an interval that holds whatever
-    /// the undecided tosses would have shown.
-    pub(crate) fn interval(&self, face: Face, confidence: f64) -> Interval {
-        let z = normal_quantile(confidence);
-        let [least, most] = self
-            .extremes_of(face)
-            .map(|counts| difference(counts, self.tosses()));
-        Interval {
-            value: self.difference(face).0,
-            lo: least.0 - z * least.1,
-            hi: most.0 + z * most.1,
-        }
-    }
-}
-
-/// The difference of two shares of so many tosses, of which some gained a face and some lost it, and its
-/// standard error.
-fn difference((gained, lost): (u64, u64), tosses: u64) -> (f64, f64) {
-    let [gained, lost, n] = [gained, lost, tosses].map(|tosses| tosses as f64);
-    let change = (gained - lost) / n;
-    // one more change of either kind, so that no change seen does not mean no error
-    let variance = (gained + lost + 1.0 - (gained - lost) * change) / (n * n);
-    (change, variance.sqrt())
 }
 
 impl Workers<'_> {
@@ -215,7 +101,7 @@ impl Workers<'_> {
             let after = self.ends_drawn(second, &of_second, tosses)?;
             Ok(table(&before, &after))
         })?;
-        Ok(tables.into_iter().map(Changes).collect())
+        Ok(tables.into_iter().map(Changes::new).collect())
     }
 
     /// Tosses one point and others with the same random numbers.
@@ -225,21 +111,20 @@ impl Workers<'_> {
         others: &[At<'_>],
         tosses: Range<u64>,
     ) -> Result<Vec<Changes>, QuestionError> {
-        let pieces: Vec<_> = pieces((0, &tosses)).collect();
-        let tables = self.each(pieces.len(), &|index| {
-            let tosses = &pieces[index].tosses;
-            let before = self.ends_of(first, tosses.clone())?;
+        let tables = |piece: &Piece| {
+            let before = self.ends_of(first, piece.tosses.clone())?;
             let others = others.iter();
-            let tables = others.map(|&other| self.table(&before, other, tosses.clone()));
+            let tables = others.map(|&other| self.table(&before, other, piece.tosses.clone()));
             tables.collect::<Result<Vec<_>, _>>()
-        })?;
+        };
         let mut sums = vec![[0; PAIRS]; others.len()];
-        for tables in &tables {
-            for (sum, table) in sums.iter_mut().zip(tables) {
+        let at_once = (ROUND / others.len().max(1)).max(1);
+        self.in_rounds(pieces((0, &tosses)), at_once, &tables, &mut |_, tables| {
+            for (sum, table) in sums.iter_mut().zip(&tables) {
                 add(sum, table);
             }
-        }
-        Ok(sums.into_iter().map(Changes).collect())
+        })?;
+        Ok(sums.into_iter().map(Changes::new).collect())
     }
 
     /// The end of each toss.
@@ -321,20 +206,32 @@ impl Workers<'_> {
         ranges: &[Range<u64>],
         compute: &(dyn Fn(usize, Range<u64>) -> Result<[u64; N], QuestionError> + Sync),
     ) -> Result<Vec<[u64; N]>, QuestionError> {
-        let mut left = ranges.iter().enumerate().flat_map(pieces);
+        let all = ranges.iter().enumerate().flat_map(pieces);
         let mut sums = vec![[0; N]; ranges.len()];
+        let compute = |piece: &Piece| compute(piece.work, piece.tosses.clone());
+        self.in_rounds(all, ROUND, &compute, &mut |piece, counts| {
+            add(&mut sums[piece.work], &counts);
+        })?;
+        Ok(sums)
+    }
+
+    /// Computes pieces on all threads, so many before their results are taken: 1e12 tosses have four thousand million
+    /// pieces, and not all of their results fit into memory.
+    fn in_rounds<T: Send>(
+        &self,
+        mut pieces: impl Iterator<Item = Piece>,
+        at_once: usize,
+        compute: &(dyn Fn(&Piece) -> Result<T, QuestionError> + Sync),
+        take: &mut dyn FnMut(&Piece, T),
+    ) -> Result<(), QuestionError> {
         loop {
-            // not all at once: 1e12 tosses have a thousand million pieces
-            let round: Vec<Piece> = left.by_ref().take(ROUND).collect();
+            let round: Vec<Piece> = pieces.by_ref().take(at_once).collect();
             if round.is_empty() {
-                return Ok(sums);
+                return Ok(());
             }
-            let counts = self.each(round.len(), &|index| {
-                let piece = &round[index];
-                compute(piece.work, piece.tosses.clone())
-            })?;
-            for (piece, counts) in round.iter().zip(&counts) {
-                add(&mut sums[piece.work], counts);
+            let results = self.each(round.len(), &|index| compute(&round[index]))?;
+            for (piece, result) in round.iter().zip(results) {
+                take(piece, result);
             }
         }
     }
@@ -389,15 +286,6 @@ impl Workers<'_> {
     }
 }
 
-/// Tosses by their end at one point and their end at another.
-fn table(before: &[usize], after: &[usize]) -> [u64; PAIRS] {
-    let mut table = [0; PAIRS];
-    for (before, after) in before.iter().zip(after) {
-        table[ENDS * before + after] += 1;
-    }
-    table
-}
-
 fn add<const N: usize>(sum: &mut [u64; N], counts: &[u64; N]) {
     for (sum, count) in sum.iter_mut().zip(counts) {
         *sum += count;
@@ -418,11 +306,6 @@ fn pieces((work, range): (usize, &Range<u64>)) -> impl Iterator<Item = Piece> + 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn changes(table: [[u64; ENDS]; ENDS]) -> Changes {
-        let mut pairs = table.concat().into_iter();
-        Changes([(); PAIRS].map(|()| pairs.next().expect("a pair of ends")))
-    }
 
     /// However many tosses there are, few of their pieces are in memory at a time, and none is lost: three rounds and a
     /// part of one.
@@ -446,53 +329,5 @@ mod tests {
         let failing =
             workers.each_piece::<1>(&[0..u64::MAX, 0..0], &|_, _| Err(QuestionError::Stopped));
         assert!(matches!(failing, Err(QuestionError::Stopped)));
-    }
-
-    /// 80 tosses gain the side, 50 lose it, 30 only turn over.
-    #[test]
-    fn changes_are_those_of_one_face() {
-        let [heads, tails, side] = [0, 1, 2];
-        let mut table = [[0; ENDS]; ENDS];
-        (table[heads][heads], table[side][side]) = (5000, 4840);
-        (table[tails][heads], table[heads][side], table[tails][side]) = (30, 60, 20);
-        (table[side][heads], table[side][LEFT]) = (40, 10);
-        (table[UNDECIDED][UNDECIDED], table[LEFT][LEFT]) = (3, 7);
-        let changes = changes(table);
-        assert_eq!((changes.tosses(), changes.changed()), (10_010, 160));
-        assert_eq!(changes.seen(Face::Side)[0].undecided, 3);
-        assert!((changes.mean_share(Face::Side) - 4905.0 / 10_010.0).abs() < 1e-12);
-        let (change, error) = changes.difference(Face::Side);
-        assert!((change - 30.0 / 10_010.0).abs() < 1e-12);
-        assert!((error - (131.0_f64 - 900.0 / 10_010.0).sqrt() / 10_010.0).abs() < 1e-12);
-    }
-
-    /// Of 1,000 tosses 100 are undecided at both points and may have gained the side, or lost it; 20 at the first,
-    /// which show it at the second and may have shown it before; 30 at the second, which showed heads.
-    #[test]
-    fn undecided_tosses_may_have_changed_either_way() {
-        let [heads, side] = [0, 2];
-        let mut table = [[0; ENDS]; ENDS];
-        (table[heads][heads], table[side][side]) = (500, 340);
-        (table[heads][side], table[side][heads]) = (6, 4);
-        table[UNDECIDED][UNDECIDED] = 100;
-        (table[UNDECIDED][side], table[heads][UNDECIDED]) = (20, 30);
-        let changes = changes(table);
-        assert_eq!(changes.undecided(), [120, 130]);
-        assert_eq!(changes.of(Face::Side), (26, 4));
-        assert_eq!(changes.extremes_of(Face::Side), [(6, 104), (156, 4)]);
-        let Interval { value, lo, hi } = changes.interval(Face::Side, 0.95);
-        assert!((value - 0.022).abs() < 1e-12);
-        assert!(
-            lo < -0.098 && lo > -0.12 && hi > 0.152 && hi < 0.18,
-            "{lo} {hi}"
-        );
-        table[UNDECIDED] = [0; ENDS];
-        table[heads][UNDECIDED] = 0;
-        let decided = self::changes(table);
-        assert_eq!(decided.extremes_of(Face::Side), [(6, 4); 2]);
-        let (change, error) = decided.difference(Face::Side);
-        let found = decided.interval(Face::Side, 0.95);
-        assert!((found.hi - change - 1.959_963_984_540_054 * error).abs() < 1e-12);
-        assert!((found.hi + found.lo - 2.0 * change).abs() < 1e-12);
     }
 }

@@ -9,8 +9,9 @@ mod paired;
 
 pub use document::document_of_convergence;
 
+use crate::changes::Changes;
 use crate::interval::normal_quantile;
-use crate::workers::{At, Changes};
+use crate::workers::At;
 use crate::{Interval, QuestionError, Template, Workers};
 use coinmc::plan::Plan;
 use coinmc_core::{Estimate, Face, Finer};

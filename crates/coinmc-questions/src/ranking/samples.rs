@@ -2,7 +2,8 @@
 
 use super::indices::Pairs;
 use super::{Interval, Rank};
-use crate::workers::{At, ENDS, UNDECIDED};
+use crate::changes::{ENDS, UNDECIDED};
+use crate::workers::At;
 use crate::{QuestionError, Template, Workers};
 use coinmc_core::{Domain, Stream, UniformSource};
 

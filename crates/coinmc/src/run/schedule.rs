@@ -175,7 +175,7 @@ impl Schedule {
     /// Records a result of some of the tosses of a chunk that is handed out.
     pub(super) fn add(&mut self, point: usize, result: &ChunkResult) {
         assert!(self.count(point, result), "fewer than 2^64 tosses");
-        self.progress.tosses_done += result.tosses();
+        self.progress.tosses_done = self.progress.tosses_done.saturating_add(result.tosses());
         self.seen(point);
     }
 
@@ -188,7 +188,7 @@ impl Schedule {
                 if !state.count(tossed) {
                     return false;
                 }
-                self.made += tossed.tally.tosses();
+                self.made = self.made.saturating_add(tossed.tally.tosses());
                 self.microseconds = self.microseconds.saturating_add(tossed.microseconds);
             }
         }
@@ -276,8 +276,8 @@ impl Schedule {
             return false;
         }
         self.taken_over.push((chunk.clone(), Packed::from(&result)));
-        self.progress.tosses_done += result.tosses();
-        self.progress.tosses_reused += result.tosses();
+        self.progress.tosses_done = self.progress.tosses_done.saturating_add(result.tosses());
+        self.progress.tosses_reused = self.progress.tosses_reused.saturating_add(result.tosses());
         self.progress.reused_chunks += 1;
         self.seen(chunk.point);
         true
@@ -296,8 +296,8 @@ impl Schedule {
             // only forged counts overflow: repeat the chunk
             return None;
         }
-        self.progress.tosses_done += result.tosses();
-        self.progress.tosses_reused += result.tosses();
+        self.progress.tosses_done = self.progress.tosses_done.saturating_add(result.tosses());
+        self.progress.tosses_reused = self.progress.tosses_reused.saturating_add(result.tosses());
         self.seen(chunk.point);
         Some(begun)
     }

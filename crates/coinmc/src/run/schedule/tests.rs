@@ -368,3 +368,21 @@ fn a_point_that_gets_all_that_it_may_have_is_not_limited_by_the_run() {
     assert_eq!(second.stopped_by, StoppedBy::TotalTosses);
     assert!(second.tally.tosses() + second.look.unwrap().0 <= 4000);
 }
+
+/// Each point counts fewer than 2^64 tosses. Of all together, which only files that somebody made can have more of,
+/// no more than 2^64 − 1 are told.
+#[test]
+fn forged_counts_of_many_points_are_not_told_in_full() {
+    let mut schedule = whole_of(&plan("tosses = 1_000_000"), Finished::default());
+    let forged = Tossed {
+        microseconds: 1,
+        ..half_and_half(u64::MAX / 1000)
+    };
+    for _ in 0..600 {
+        for point in [0, 1] {
+            schedule.add(point, &ChunkResult::Tossed(forged));
+        }
+    }
+    assert_eq!(schedule.progress.tosses_done, u64::MAX);
+    assert_eq!(schedule.made, u64::MAX);
+}
