@@ -198,7 +198,7 @@ fn normal_cdf(z: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Observations, Settings};
+    use crate::{Kind, Observations, Settings};
     use coinmc_questions::Workers;
     use std::sync::atomic::AtomicBool;
 
@@ -226,5 +226,16 @@ mod tests {
             let refused = message.contains(&format!("{name} contradicts"));
             assert_eq!(refused, told, "{name}: {message}");
         }
+        // of some kinds only, each still has its own place
+        for (kind, name, line) in [(Kind::Tilt, "tilt 1", 5), (Kind::Bounces, "bounces 1", 9)] {
+            let message = refuse(&model.with_kinds(&[kind])).unwrap_err().to_string();
+            assert!(
+                message.contains(&format!("{name} contradicts")),
+                "{message}"
+            );
+            assert_eq!(message.matches("contradicts").count(), 1, "{message}");
+            assert!(message.contains(&format!("inline:{line}:")), "{message}");
+        }
+        assert!(refuse(&model.with_kinds(&[])).is_ok());
     }
 }

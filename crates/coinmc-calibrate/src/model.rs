@@ -104,14 +104,24 @@ impl Model {
     /// The same model with the measurements of some kinds only.
     pub fn with_kinds(&self, kinds: &[Kind]) -> Self {
         let mut model = self.clone();
+        let observed = &mut model.observed;
+        // places are those of the counts, and then of the readings
+        let of_counts = observed.counts.iter().map(|_| Kind::Counts);
+        let of_readings = observed.readings.iter().map(|reading| reading.kind);
+        let kept: Vec<bool> = of_counts
+            .chain(of_readings)
+            .map(|kind| kinds.contains(&kind))
+            .collect();
+        let mut keeps = kept.into_iter();
+        observed.places.retain(|_| keeps.next() == Some(true));
         if !kinds.contains(&Kind::Counts) {
-            model.observed.counts.clear();
+            observed.counts.clear();
             model.counted.clear();
         }
         if !kinds.contains(&Kind::Film) {
-            model.observed.film_remarks.clear();
+            observed.film_remarks.clear();
         }
-        let readings = &mut model.observed.readings;
+        let readings = &mut observed.readings;
         readings.retain(|reading| kinds.contains(&reading.kind));
         model
     }

@@ -93,16 +93,21 @@ impl<T> OnDemand<T> {
 }
 
 impl<T: Clone> OnDemand<T> {
-    /// The item at this place, which is not kept.
+    /// The item at this place. It is not kept because of this; if it is kept already, it is that one, which may have
+    /// been changed.
     ///
     /// # Panics
     /// Beyond the end.
     pub fn at(&self, index: usize) -> Cow<'_, T> {
         match &self.0 {
             List::Whole(items) => Cow::Borrowed(&items[index]),
-            List::Made { len, make, .. } => {
+            List::Made { len, make, kept } => {
                 assert!(index < *len, "item {index} of {len}");
-                Cow::Owned(make(index))
+                let kept = kept[index / BLOCK].get();
+                kept.map_or_else(
+                    || Cow::Owned(make(index)),
+                    |block| Cow::Borrowed(&block[index % BLOCK]),
+                )
             }
         }
     }
@@ -166,7 +171,7 @@ impl<T: Clone> IntoIterator for OnDemand<T> {
     fn into_iter(self) -> Self::IntoIter {
         let items: Vec<T> = match self.0 {
             List::Whole(items) => items,
-            List::Made { len, make, .. } => (0..len).map(|index| make(index)).collect(),
+            List::Made { .. } => self.each().map(Cow::into_owned).collect(),
         };
         items.into_iter()
     }
@@ -240,6 +245,9 @@ mod tests {
             list[2] = 77;
             let copy = list.clone();
             assert_eq!((copy[2], copy[1], copy.len()), (77, 1, len));
+            assert_eq!((*copy.at(2), *copy.at(1)), (77, 1));
+            assert!(copy == list && list != OnDemand::made(len, |i| i));
+            assert_eq!(list.into_iter().nth(2), Some(77));
         }
     }
 }
