@@ -88,18 +88,22 @@ pub(super) fn run_chunk_while(
             points: plan.points.len(),
         });
     }
-    tally(plan, chunk, go_on).map_err(|source| RunError::Settings {
+    tally(plan, chunk, NOTED, go_on).map_err(|source| RunError::Settings {
         point: chunk.point,
         source,
     })
 }
 
-/// The tally of an existing chunk; `None` if `go_on` returned false. It is called whenever an
-/// engine delivers outcomes: about every 0.1 ms in the plane, every 1 ms in space, after each toss
-/// in time steps, and well within 0.1 s for the longest tosses.
+/// Tosses made together: the launch of each is noted, a byte, until they have ended.
+const NOTED: usize = 1 << 24;
+
+/// The tally of an existing chunk, of which so many tosses are made together; `None` if `go_on` returned
+/// false. It is called whenever an engine delivers outcomes: about every 0.1 ms in the plane, every 1 ms
+/// in space, after each toss in time steps, and well within 0.1 s for the longest tosses.
 fn tally(
     plan: &Plan,
     chunk: &Chunk,
+    together: usize,
     go_on: impl Fn() -> bool,
 ) -> Result<Option<Tally>, EngineError> {
     let (point, tosses) = (&plan.points.at(chunk.point), &chunk.tosses);
@@ -107,26 +111,44 @@ fn tally(
     if !point.engine.makes_tosses() {
         return Ok(Some(tally));
     }
-    if go_on() {
-        let stream = stream(plan, chunk.point);
+    let stream = stream(plan, chunk.point);
+    for first in tosses.clone().step_by(together) {
+        if !go_on() {
+            return Ok(None);
+        }
+        let noted = first..tosses.end.min(first.saturating_add(together as u64));
         let source = TossSource::Drawn(&stream);
         let starts = Starts::default();
-        for_some_outcomes(
-            point,
-            source,
-            tosses.clone(),
-            Some(&starts),
-            &mut |outcomes| {
-                for (number, outcome) in outcomes {
-                    tally.add_started(outcome, starts.up(*number));
-                }
-                if go_on() {
-                    ControlFlow::Continue(())
-                } else {
-                    ControlFlow::Break(())
-                }
-            },
-        )?;
+        for_some_outcomes(point, source, noted, Some(&starts), &mut |outcomes| {
+            for (number, outcome) in outcomes {
+                tally.add_started(outcome, starts.up(*number));
+            }
+            if go_on() {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        })?;
     }
     Ok((tally.tosses() == tosses.end - tosses.start).then_some(tally))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::schedule::tests::plan_of_one;
+
+    /// However many tosses are made together, the counts are the same, those of the face that was up at the launch too.
+    #[test]
+    fn counts_do_not_depend_on_how_many_tosses_are_made_together() {
+        let plan = plan_of_one("tosses = 1000");
+        let (point, tosses) = (0, 3..1000);
+        let chunk = Chunk { point, tosses };
+        let counted = |together| tally(&plan, &chunk, together, || true).unwrap().unwrap();
+        let whole = counted(NOTED);
+        assert_eq!(whole.tosses(), 997);
+        for together in [1, 7, 996, 997, 5000] {
+            assert_eq!(counted(together), whole, "{together}");
+        }
+    }
 }
