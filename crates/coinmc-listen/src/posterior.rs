@@ -67,7 +67,7 @@ pub struct FromDrops {
     pub parameters: Vec<Estimated>,
     /// Surfaces on which the posterior rests.
     pub nearest: usize,
-    /// Drops simulated.
+    /// Drops simulated, but for those of a single impact, which are made again.
     pub drops: u64,
     /// What is odd about what is heard; empty if nothing is.
     pub doubts: Vec<String>,
@@ -278,10 +278,15 @@ fn beyond(simulated: &[Simulated], seen: &[f64]) -> Vec<String> {
         let values = || simulated.iter().map(|s| s.features[place]);
         let below = share(values().filter(|value| *value < seen[place]).count());
         let above = share(values().filter(|value| *value > seen[place]).count());
-        let (side, share) = if above < below {
-            ("longer", above)
+        let sides = if name.starts_with("number") {
+            ["larger", "smaller"]
         } else {
-            ("shorter", below)
+            ["longer", "shorter"]
+        };
+        let (side, share) = if above < below {
+            (sides[0], above)
+        } else {
+            (sides[1], below)
         };
         let equal = values().any(|value| (value - seen[place]).abs() < 1e-9);
         if share < BEYOND && !equal {
@@ -385,5 +390,29 @@ mod tests {
             seed: 1,
         };
         assert!(FromDrops::of(&drops, &observed, few, &workers).is_err());
+    }
+
+    /// Flights are longer or shorter than simulated ones, and numbers of bounces larger or smaller.
+    #[test]
+    fn a_doubt_says_to_which_side_something_is_odd() {
+        let simulated: Vec<Simulated> = (0..1000_u32)
+            .map(|k| Simulated {
+                z: vec![],
+                features: vec![f64::from(k); FEATURES],
+            })
+            .collect();
+        let mut seen = vec![499.5; FEATURES];
+        assert!(beyond(&simulated, &seen).is_empty());
+        (seen[0], seen[1]) = (-1.0, 2000.0);
+        seen[5] = 2000.0;
+        let doubts = beyond(&simulated, &seen).join("\n");
+        for told in [
+            "the longest flight is shorter",
+            "the second longest flight is longer",
+            "the number of bounces is larger",
+        ] {
+            assert!(doubts.contains(told), "{doubts}");
+        }
+        assert_eq!(doubts.lines().count(), 3);
     }
 }
