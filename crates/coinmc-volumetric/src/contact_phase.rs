@@ -66,7 +66,7 @@ impl<L> Model<L> {
         solver: &mut ContactSolver<'_>,
         observer: &mut O,
     ) -> Transition {
-        self.note_contact(toss);
+        self.note_contact_of_both(toss);
         let (motion, spin, mut adapter) = toss.observed(&self.units, observer);
         let exit = match &self.pull {
             None => solver.follow_on_side(motion, spin, &mut adapter),

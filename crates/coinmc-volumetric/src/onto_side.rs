@@ -5,11 +5,12 @@
 //! rolling coin at any time until it rests, and every rule decides a spinning one only when most of
 //! its spin is gone.)
 //!
-//! * *Rolling*. Tangential impulses at the contact keep Λ = v_y − (k_a/R) ω_a (`coinmc_core`'s
-//!   decision), so once the coin rolls its speed is |Λ|/(1 + k_a/R²); how far it then rolls follows
-//!   in closed form from contour friction and drag ([`RollingStop`]).
+//! * *Rolling*. While the coin slides, friction changes v_y by μ and the rim's speed w = −R ω_a by
+//!   μR²/k_a until they are equal, and contour friction takes ρ_c R/k_a from |w|. How far the coin then
+//!   rolls follows in closed form from contour friction and drag ([`RollingStop`]).
 //! * *Spinning*. Pivoting friction and drag alone stop ω_z after the angle ½ k_t ω_z²/ρ_p, or less
-//!   by drag.
+//!   by drag. Under a coin that comes onto both rims at once these slip, too, at the distance h from
+//!   the middle: with ρ_p + μh for ρ_p.
 
 use crate::contact::{RollingStop, way_to_rest};
 use crate::model::Model;
@@ -24,6 +25,8 @@ pub(crate) struct SideArrival {
     rolling: f64,
     /// |ω_z|, in sqrt(g/D).
     turning: f64,
+    /// The moment that stops the turning, in m g D.
+    pivoting: f64,
 }
 
 impl<L> Model<L> {
@@ -31,7 +34,7 @@ impl<L> Model<L> {
     /// its side counts, unless it leaves the side again.
     #[inline]
     pub(crate) fn note_contact(&self, toss: &mut Toss) {
-        if self.rule.on_side(toss.motion.cos.abs()) {
+        if self.rule.on_side(toss.motion.cos) {
             if toss.side_arrival.is_none() {
                 toss.side_arrival = Some(self.side_arrival(toss));
             }
@@ -40,13 +43,52 @@ impl<L> Model<L> {
         }
     }
 
+    /// The same where both rims touch at once.
+    pub(crate) fn note_contact_of_both(&self, toss: &mut Toss) {
+        if toss.side_arrival.is_none() {
+            let mut arrival = self.side_arrival(toss);
+            arrival.pivoting += self.dynamics.friction.mu * self.dynamics.body.half;
+            toss.side_arrival = Some(arrival);
+        }
+    }
+
     fn side_arrival(&self, toss: &Toss) -> SideArrival {
         let (body, m, spin) = (&self.dynamics.body, &toss.motion, &toss.spin);
-        let lasting = (m.vy - body.ka / body.outer_radius() * spin.axial).abs();
         SideArrival {
-            rolling: lasting / (1.0 + body.ka / body.outer_radius().powi(2)),
+            rolling: self.rolls_at(m.vy, -body.outer_radius() * spin.axial),
             turning: m.turning(spin).abs(),
+            pivoting: self.dynamics.friction.pivoting,
         }
+    }
+
+    /// The speed with which a coin begins to roll whose centre moves at `v` and whose rim turns at `w`.
+    fn rolls_at(&self, v: f64, w: f64) -> f64 {
+        let (body, friction) = (&self.dynamics.body, &self.dynamics.friction);
+        let radius = body.outer_radius();
+        let (mu, contour, inertia) = (
+            friction.mu,
+            friction.contour / radius,
+            radius * radius / body.ka,
+        );
+        // its mirror image slides forwards
+        let (mut v, mut w) = if v >= w { (v, w) } else { (-v, -w) };
+        if mu == 0.0 || v == w {
+            return v.abs();
+        }
+        if w < 0.0 {
+            // contour friction helps to stop a rim that turns backwards
+            let alike = (v - w) / (mu * (1.0 + inertia) + contour * inertia);
+            let still = -w / (inertia * (mu + contour));
+            if alike <= still {
+                return (v - mu * alike).abs();
+            }
+            (v, w) = (v - mu * still, 0.0);
+        }
+        if mu <= contour {
+            // contour friction holds the rim, and the coin slides to rest
+            return 0.0;
+        }
+        v - mu * (v - w) / (mu * (1.0 + inertia) - contour * inertia)
     }
 
     /// How a toss that ended like this came to end on its side; `None` if it did not.
@@ -67,8 +109,12 @@ impl<L> Model<L> {
     }
 
     fn onto_side(&self, arrival: SideArrival) -> OntoSide {
-        let SideArrival { rolling, turning } = arrival;
-        let (body, friction) = (&self.dynamics.body, &self.dynamics.friction);
+        let SideArrival {
+            rolling,
+            turning,
+            pivoting,
+        } = arrival;
+        let body = &self.dynamics.body;
         // a creep, which without friction lengths never ends, is no motion
         let creep = self.contact_rules().stick_speed;
         let distance = if rolling > creep {
@@ -77,11 +123,7 @@ impl<L> Model<L> {
             0.0
         };
         let angle = if turning > creep {
-            way_to_rest(
-                friction.pivoting / body.kt,
-                self.dynamics.drag.angular,
-                turning,
-            )
+            way_to_rest(pivoting / body.kt, self.dynamics.drag.angular, turning)
         } else {
             0.0
         };
@@ -129,6 +171,75 @@ mod tests {
         }
     }
 
+    /// The speed at which the slip of a coin on its side ends, by Newton's law in short steps: friction μ brakes the centre
+    /// and turns the rim, contour friction brakes the rim, whichever way it turns, and may hold it.
+    #[test]
+    fn contour_friction_slows_a_coin_down_while_it_slides() {
+        let (mut backwards, mut held) = (0, 0);
+        for number in 0..300 {
+            let mut dice = Dice::new(519, number);
+            let coin = Coin::cylinder(0.7, 0.013).expect("a valid coin");
+            let (mu, contour) = (dice.between(0.1, 0.5), dice.between(0.0, 0.3));
+            let surface = Surface::new(0.5, mu)
+                .and_then(|surface| surface.with_friction_lengths(contour * 0.013, 1e-5));
+            let scene = Scene::new(coin, surface.expect("a valid surface"), 9.81);
+            let model = model_of(&scene.expect("a valid scene"), &Settings::default());
+            let (body, contour) = (&model.dynamics.body, model.dynamics.friction.contour);
+            let radius = body.outer_radius();
+            let (v, w) = (dice.between(-1.0, 1.0), dice.between(-1.0, 1.0));
+            let step = 1e-5;
+            let (mut centre, mut rim) = (v, w);
+            let way = (v - w).signum();
+            while (centre - rim) * way > 0.0 {
+                centre -= step * mu * way;
+                let driven = rim + step * mu * way * radius * radius / body.ka;
+                let braked = step * contour * radius / body.ka;
+                rim = if driven.abs() <= braked {
+                    0.0
+                } else {
+                    driven - braked * driven.signum()
+                };
+            }
+            let found = model.rolls_at(v, w);
+            let rolls = if mu <= contour / radius && v * w > 0.0 && w.abs() < v.abs() {
+                0.0
+            } else {
+                centre.abs()
+            };
+            assert!(
+                (found - rolls).abs() < 1e-4,
+                "{mu} {contour} {v} {w}: {found} {rolls}"
+            );
+            assert_eq!(model.rolls_at(-v, -w), found);
+            backwards += u32::from(v * w < 0.0 && found > 0.01);
+            held += u32::from(found == 0.0);
+        }
+        assert!(backwards > 50 && held > 5, "{backwards} {held}");
+    }
+
+    /// A coin that comes onto both rims at once turns against the friction of both; one on a rim only against pivoting
+    /// friction.
+    #[test]
+    fn a_coin_on_both_rims_turns_against_their_friction() {
+        let scene = generic_scene(|plane| plane);
+        let model = model_of(&scene, &Settings::default());
+        let mut toss = Toss::still();
+        toss.motion.lay_on_side();
+        (toss.spin.turn, toss.motion.vy) = (0.8, 0.0);
+        let (mut both, mut one) = (toss, toss);
+        model.note_contact_of_both(&mut both);
+        model.note_contact(&mut one);
+        let [both, one] = [both, one].map(|toss| toss.side_arrival.expect("on its side"));
+        let friction = &model.dynamics.friction;
+        assert_eq!(one.pivoting, friction.pivoting);
+        assert_eq!(
+            both.pivoting,
+            friction.pivoting + friction.mu * model.dynamics.body.half
+        );
+        let (turns, more) = (model.onto_side(both).turns, model.onto_side(one).turns);
+        assert!(turns < 0.3 * more, "{turns} {more}");
+    }
+
     /// How far a coin rolls and turns is what its equation of motion says, in short steps: contour friction and drag
     /// slow down its rolling, pivoting friction and drag its turning. What has more energy names it, and a creep is
     /// no motion.
@@ -143,7 +254,12 @@ mod tests {
         for number in 0..8 {
             let mut dice = Dice::new(542, number);
             let [rolling, turning] = [0.0; 2].map(|_| dice.between(0.1, 0.9));
-            let found = model.onto_side(SideArrival { rolling, turning });
+            let pivoting = friction.pivoting;
+            let found = model.onto_side(SideArrival {
+                rolling,
+                turning,
+                pivoting,
+            });
             let share = body.ka / (radius * radius);
             let (way, _) = stops_plainly(
                 |v| {
@@ -179,6 +295,7 @@ mod tests {
             let creeps = model.onto_side(SideArrival {
                 rolling: 0.99 * creep,
                 turning: 0.99 * creep,
+                pivoting,
             });
             assert_eq!((creeps.rolls_m, creeps.turns), (0.0, 0.0));
         }

@@ -21,6 +21,12 @@ const STEP: f64 = 0.04;
 const END: f64 = 0.01;
 /// A way shorter than this, in D, is none.
 const NEGLIGIBLE: f64 = 0.01;
+/// A spin below this share of the slip holds the centre as none does: it changes friction by its square.
+const NO_SPIN: f64 = 1e-3;
+/// A direction whose cosine is as near to 1 is straight down.
+const STRAIGHT: f64 = 1e-6;
+/// The least excess of friction over the pull: rounding may leave none.
+const LEAST_EXCESS: f64 = 1e-15;
 
 /// The way, in D, and the time, in sqrt(D/g), until a coin that slides at the speed `v` and turns at
 /// `w`/R rests; `mu` > 0.
@@ -49,7 +55,8 @@ pub(crate) fn way_and_time(body: &Body, mu: f64, v: f64, w: f64) -> (f64, f64) {
 }
 
 /// The same on a tilted table: the way along x and y of the frame, from the velocity `v`, with the pull
-/// in it. A coin that spins is held less, and slides down as long as it spins.
+/// in it. A coin that spins is held less, and slides down as long as it spins; once it slides straight down without
+/// spin, friction less the pull ends it, which may be next to nothing: v²/2(μ − tan β).
 pub(crate) fn pulled_way_and_time(
     body: &Body,
     mu: f64,
@@ -68,6 +75,19 @@ pub(crate) fn pulled_way_and_time(
         // friction less the pull slows down, at the least
         let step = STEP * slip(v, w) / ((mu + slope) * inertia.max(1.0));
         let speed = (v[0] * v[0] + v[1] * v[1]).sqrt();
+        let downwards = v[0] * pull[0] + v[1] * pull[1];
+        if w <= NO_SPIN * speed && downwards >= (1.0 - STRAIGHT) * speed * slope {
+            let rest = speed / (mu - slope).max(LEAST_EXCESS);
+            let straight = if slope > 0.0 {
+                pull.map(|part| speed / slope * part)
+            } else {
+                v
+            };
+            return (
+                [0, 1].map(|i| way[i] + 0.5 * rest * straight[i]),
+                time + rest,
+            );
+        }
         let (along, about) = means(&rim, speed, w);
         // where friction would stop the centre within the step, it holds it as far as it can
         let held = (mu * along * step / speed.max(f64::MIN_POSITIVE)).min(1.0);
@@ -169,6 +189,29 @@ mod tests {
             assert!(aside.abs() < 1e-12);
             assert!((time * slowed / speed - 1.0).abs() < 0.03, "{time}");
         }
+    }
+
+    /// Friction next to no greater than the pull ends the slide all the same, far away: as that of a block, once a spin is
+    /// gone and whatever way it began.
+    #[test]
+    fn a_slide_that_hardly_slows_down_ends() {
+        let (body, mu) = (body(), 0.3);
+        for (excess, w) in [(1e-3, 0.0), (1e-9, 0.0), (1e-9, 1.5)] {
+            let pull = [mu - excess, 0.0];
+            let ([x, y], time) = pulled_way_and_time(&body, mu, [1.0, 0.0], w, pull);
+            let speed = (2.0 * x * excess).sqrt();
+            // a spin lets it gain speed first
+            assert!(if w == 0.0 {
+                (speed - 1.0).abs() < 1e-6
+            } else {
+                speed > 1.0 && speed < 3.0
+            });
+            assert!((time * excess / speed - 1.0).abs() < 1e-3 && y == 0.0);
+            let ([_, aside], _) = pulled_way_and_time(&body, mu, [0.0, 0.7], w, pull);
+            assert!(aside > 0.0 && aside < 10.0, "{aside}");
+        }
+        let none = pulled_way_and_time(&body, mu, [1.0, 0.0], 0.0, [mu, 0.0]);
+        assert!(none.0[0].is_finite() && none.1.is_finite());
     }
 
     /// Of a coin that slides and spins a plain sum over a hundred times as many steps tells the same way,

@@ -5,8 +5,9 @@
 //! where the centre is; and where it was beyond the edge, the coin has left, whatever it would have
 //! done there. A coin that stays on a level table shows the face that is decided on an endless one:
 //! what a decision rules out cannot happen afterwards, whatever small errors of long motion may do. A
-//! centre that is beyond the edge in flight lands beyond it: flights are parabolas seen from above,
-//! straight on a level table, and the table is convex.
+//! centre that is beyond the edge of a level table in flight lands beyond it: seen from above flights are
+//! straight, and the table is convex. Along the normal of a tilted table they are bent: there the edge
+//! counts where a coin touches.
 //!
 //! In contact the centre is looked at so often that it cannot pass the edge in between by more than
 //! [`RESOLUTION`] of the coin's radius: no later than a coin as fast as its energy allows would need
@@ -134,10 +135,21 @@ struct EdgeWatch<'a, L, O> {
     /// The coin where it was first seen beyond the edge.
     left: Option<State>,
     last: Option<State>,
+    /// Whether the coin flies from the last event on, unless another one happens at the same time.
+    flies: bool,
 }
 
 impl<L, O: Observer> EdgeWatch<'_, L, O> {
+    /// Whether the edge does not count where the coin is: above a tilted table.
+    fn is_above(&self) -> bool {
+        self.flies && self.table.tilt.is_some()
+    }
+
     fn look(&mut self, state: &State) {
+        if self.is_above() {
+            self.look_at_s = f64::INFINITY;
+            return;
+        }
         let inside_m = self.table.radius_m - state.position_m.xy().norm();
         if self.left.is_none() && inside_m < 0.0 {
             self.left = Some(*state);
@@ -160,7 +172,14 @@ impl<L, O: Observer> EdgeWatch<'_, L, O> {
 
 impl<L, O: Observer> Observer for EdgeWatch<'_, L, O> {
     fn event(&mut self, event: &Event) {
+        self.flies = event.kind == EventKind::Launched;
         self.look(&event.state);
+        if matches!(event.kind, EventKind::Impact | EventKind::LiftOff) {
+            self.flies = true;
+            if self.left.is_none() && self.is_above() {
+                self.look_at_s = f64::INFINITY;
+            }
+        }
         self.last = Some(event.state);
         if O::ACTIVE && self.left.is_none() {
             self.observer.event(event);
@@ -207,6 +226,7 @@ impl<L: ImpactLaw> Table<L> {
             look_at_s: 0.0,
             left: None,
             last: None,
+            flies: true,
         };
         let (on_table, begun) = self.launch(launch);
         let mut toss = self.model.run_from(begun, &on_table, &mut watch);
@@ -327,6 +347,7 @@ mod tests {
             look_at_s: 0.0,
             left: None,
             last: None,
+            flies: false,
         };
         let event = |time_s, x| Event {
             kind: EventKind::Impact,

@@ -14,6 +14,9 @@ use coinmc_core::{Decided, EventKind, Observer};
 const FIRST_STEP: f64 = 0.01;
 /// Largest turn of the axis within a piece of the way to rest that an observer is shown, rad.
 const LARGEST_TURN: f64 = 0.2;
+/// Most pieces of a roll to rest, 33,000 rounds about the apex: of longer ones, with next to no rolling friction, the place is
+/// shown less well.
+const MOST_PIECES: f64 = 1_048_576.0;
 
 /// How a coin comes to lie on its edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -245,7 +248,7 @@ impl Path<'_> {
         let azimuth = (state[3] / edge.sin).abs();
         let turns = (azimuth * rolling.time / LARGEST_TURN).ceil();
         let pieces = if O::ACTIVE {
-            rolling.pieces().max(turns)
+            rolling.pieces().max(turns).min(MOST_PIECES)
         } else {
             1.0
         };

@@ -86,6 +86,29 @@ fn a_wheel_rolls_up_and_down() {
     }
 }
 
+/// A coin that falls straight down onto the middle of a table stays, however far from the table's normal it began; and one
+/// that is thrown so that it lands beyond the edge leaves where it lands.
+#[test]
+fn a_coin_above_a_tilted_table_is_not_beyond_its_edge() {
+    let scene = table(0.3, 0.9, 5.0, 30.0);
+    let launch = |x: f64| Launch {
+        height_m: 1.0,
+        velocity_m_s: Vector3::new(x, 0.0, 0.0),
+        axis: UnitVector3::new_unchecked(Vector3::z()),
+        spin_rad_s: Vector3::zeros(),
+    };
+    for (radius_m, speed, leaves) in [(0.05, 0.0, false), (0.05, 0.5, true), (0.4, 0.5, false)] {
+        let mut scene = with_edge(scene, radius_m);
+        scene.surface = scene.surface.with_impact(0.0, 0.9).expect("a surface");
+        let toss = Tosser::new(&scene).toss(&launch(speed));
+        assert_eq!(
+            toss.ended == Ended::Left,
+            leaves,
+            "{radius_m} {speed}: {toss:?}"
+        );
+    }
+}
+
 /// A coin across the slope falls over where the pull does: R tan β > H/2.
 #[test]
 fn a_thin_coin_across_the_slope_falls_over() {
