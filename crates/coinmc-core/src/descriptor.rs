@@ -159,6 +159,21 @@ impl Remark {
         text: "surface.roughness_slope = 0 is a perfect plane, on which thin coins roll standing up: for \
                H/R below 0.4 P(side) is an upper bound; surface.material gives a real surface",
     };
+
+    /// For engines with rough ground: waves so long that a coin bounces from one slope to the next.
+    pub const LONG_WAVES: Self = Self {
+        applies: is_wavy,
+        text: "surface.roughness_wavelength_m is above 0.3: each landing counts as on other ground, so a coin \
+               that bounces meets another slope each time; surface.table_tilt_deg gives the table one slope",
+    };
+}
+
+/// Wavelength beyond which a coin that bounces lands on what should be the same slope, m.
+const LONG_M: f64 = 0.3;
+
+fn is_wavy(scene: &Scene) -> bool {
+    let roughness = scene.surface.roughness();
+    roughness.is_some_and(|roughness| roughness.wavelength_m() > LONG_M)
 }
 
 fn is_thin_on_a_plane(scene: &Scene) -> bool {
@@ -393,6 +408,20 @@ mod tests {
     fn a_value_out_of_range_is_no_mismatch_with_the_schema() {
         assert!(EngineError::mismatch("no such key").is_mismatch());
         assert!(!EngineError::new("too large").is_mismatch());
+    }
+
+    #[test]
+    fn the_remark_on_long_waves_is_on_waves_longer_than_bounces() {
+        let applies = |slope, wavelength_m| {
+            let mut scene = scene();
+            let rough = Roughness::new(slope, wavelength_m).unwrap();
+            scene.surface = scene.surface.with_roughness(Some(rough));
+            (Remark::LONG_WAVES.applies)(&scene)
+        };
+        assert!(!(Remark::LONG_WAVES.applies)(&scene()));
+        assert!(!applies(0.05, 0.3) && applies(0.05, 0.31));
+        // none of no height
+        assert!(!applies(0.0, 0.31));
     }
 
     /// P(side) on a plane is an upper bound for thin coins, and for these alone: on a real surface it is

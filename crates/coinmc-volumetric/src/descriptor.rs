@@ -29,6 +29,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     ],
     remarks: &[
         Remark::PERFECT_PLANE,
+        Remark::LONG_WAVES,
         Remark {
             applies: |scene| {
                 let surface = &scene.surface;
