@@ -192,7 +192,7 @@ impl Driver {
         let decided = if self.settings.decision != Decision::Rest {
             self.rule
                 .decide(&motion.decision_state(&self.scaled, depth))
-        } else if toss.rest.is_at_rest(motion, body, toss.time) {
+        } else if toss.rest.is_at_rest(motion, body, toss.pushed, toss.time) {
             self.well(toss)
         } else {
             Decided::Open

@@ -109,9 +109,13 @@ impl SessionRecorder {
             path: folder.to_owned(),
             source,
         })?;
+        let Some(session) = last.checked_add(1) else {
+            let path = folder.join(format!("session-{last}-01.mcap"));
+            return Err(Error::Exists { path });
+        };
         let mut recorder = Self {
             folder: folder.to_owned(),
-            session: last + 1,
+            session,
             part: 0,
             encoding,
             file: None,
@@ -318,4 +322,20 @@ fn last_session(folder: &Path) -> io::Result<u32> {
         last = last.max(number.unwrap_or(0));
     }
     Ok(last)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A session follows the last one; after the last number that there is none can begin.
+    #[test]
+    fn a_session_has_the_next_number() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let begin = || SessionRecorder::begin(folder.path(), Encoding::Protobuf);
+        fs::write(folder.path().join("session-0007-01.mcap"), "").expect("a file");
+        assert_eq!(begin().expect("a session").session, 8);
+        fs::write(folder.path().join("session-4294967295-01.mcap"), "").expect("a file");
+        assert!(matches!(begin(), Err(Error::Exists { .. })));
+    }
 }

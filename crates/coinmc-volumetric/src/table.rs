@@ -11,7 +11,7 @@
 //!
 //! In contact the centre is looked at so often that it cannot pass the edge in between by more than
 //! [`RESOLUTION`] of the coin's radius: no later than a coin as fast as its energy allows would need
-//! to the edge.
+//! to the edge. In flight, and without friction on a plane, it goes straight on, no faster than it is.
 //!
 //! On a tilted table (see `pull`) the motion depends on the direction in the laboratory, which only
 //! tosses with an observer know, and no energy decides for good. So they are followed in the same way.
@@ -103,6 +103,32 @@ impl<L> Table<L> {
         (2.0 * energy.max(0.0)).sqrt()
     }
 
+    /// How long a coin in this state need not be looked at, s.
+    fn safe_for_s(&self, state: &State, flies: bool) -> f64 {
+        let surface = &self.scene.surface;
+        let fastest = self.fastest_m_s(state);
+        if self.tilt.is_some() && flies {
+            // the edge counts where it lands
+            return f64::INFINITY;
+        }
+        let keeps_velocity = surface.friction() == 0.0 && surface.roughness().is_none();
+        if self.tilt.is_none() && (flies || keeps_velocity) {
+            // straight on, and no faster
+            let (at, velocity) = (state.position_m.xy(), state.velocity_m_s.xy());
+            let (square, towards) = (velocity.norm_squared(), at.dot(&velocity));
+            let room = self.radius_m * self.radius_m - at.norm_squared();
+            let root = (towards * towards + square * room.max(0.0)).sqrt();
+            let reaches = if square > 0.0 {
+                (root - towards) / square
+            } else {
+                f64::INFINITY
+            };
+            return reaches.max(self.resolution_m / fastest);
+        }
+        let inside_m = self.radius_m - state.position_m.xy().norm();
+        inside_m.max(self.resolution_m) / fastest
+    }
+
     /// How a coin ends on its side that rolls down the table.
     fn rolls_for_ever(&self) -> SideEnding {
         let onto_side = OntoSide {
@@ -140,18 +166,11 @@ struct EdgeWatch<'a, L, O> {
 }
 
 impl<L, O: Observer> EdgeWatch<'_, L, O> {
-    /// Whether the edge does not count where the coin is: above a tilted table.
-    fn is_above(&self) -> bool {
-        self.flies && self.table.tilt.is_some()
-    }
-
-    fn look(&mut self, state: &State) {
-        if self.is_above() {
-            self.look_at_s = f64::INFINITY;
-            return;
-        }
-        let inside_m = self.table.radius_m - state.position_m.xy().norm();
-        if self.left.is_none() && inside_m < 0.0 {
+    /// Looks at the coin, which touches the table or does not.
+    fn look(&mut self, state: &State, touches: bool) {
+        let is_beyond = state.position_m.xy().norm() > self.table.radius_m;
+        let counts = touches || self.table.tilt.is_none();
+        if self.left.is_none() && is_beyond && counts {
             self.left = Some(*state);
             self.look_at_s = f64::INFINITY;
             if O::ACTIVE {
@@ -163,23 +182,16 @@ impl<L, O: Observer> EdgeWatch<'_, L, O> {
             }
         }
         if self.left.is_none() {
-            let fastest = self.table.fastest_m_s(state);
-            let way = inside_m.max(self.table.resolution_m);
-            self.look_at_s = state.time_s + way / fastest;
+            self.look_at_s = state.time_s + self.table.safe_for_s(state, self.flies);
         }
     }
 }
 
 impl<L, O: Observer> Observer for EdgeWatch<'_, L, O> {
     fn event(&mut self, event: &Event) {
-        self.flies = event.kind == EventKind::Launched;
-        self.look(&event.state);
-        if matches!(event.kind, EventKind::Impact | EventKind::LiftOff) {
-            self.flies = true;
-            if self.left.is_none() && self.is_above() {
-                self.look_at_s = f64::INFINITY;
-            }
-        }
+        let begins_flight = [EventKind::Launched, EventKind::Impact, EventKind::LiftOff];
+        self.flies = begins_flight.contains(&event.kind);
+        self.look(&event.state, event.kind != EventKind::Launched);
         self.last = Some(event.state);
         if O::ACTIVE && self.left.is_none() {
             self.observer.event(event);
@@ -204,7 +216,7 @@ impl<L, O: Observer> Observer for EdgeWatch<'_, L, O> {
         let wanted = O::ACTIVE && self.observer.wants_at_s() <= state.time_s;
         // not at the observer's instants: observing changes nothing
         if self.look_at_s <= state.time_s {
-            self.look(state);
+            self.look(state, !self.flies);
         }
         if wanted && self.left.is_none() {
             self.observer.sample(state);
@@ -350,7 +362,7 @@ mod tests {
             flies: false,
         };
         let event = |time_s, x| Event {
-            kind: EventKind::Impact,
+            kind: EventKind::Sliding,
             state: state(time_s, [x, 0.0, 0.0]),
         };
         watch.event(&event(0.0, -0.1));
@@ -372,7 +384,7 @@ mod tests {
         let kinds: Vec<_> = sampler.events.iter().map(|event| event.kind).collect();
         assert_eq!(
             kinds,
-            [EventKind::Impact, EventKind::Impact, EventKind::Ended]
+            [EventKind::Sliding, EventKind::Sliding, EventKind::Ended]
         );
         let seen: Vec<_> = sampler
             .samples
@@ -380,6 +392,28 @@ mod tests {
             .map(|seen| seen.state.time_s)
             .collect();
         assert_eq!(seen, [0.0, 0.5]);
+    }
+
+    /// In flight above a level table, and without friction, a coin is looked at again when it is above the edge, straight ahead;
+    /// above a tilted one where it lands; in contact no later than a coin as fast as its energy allows could be there.
+    #[test]
+    fn a_coin_is_looked_at_again_before_it_may_be_beyond_the_edge() {
+        let at = state(0.0, [0.1, -0.05, 0.03]);
+        let (place, velocity) = (at.position_m.xy(), at.velocity_m_s.xy());
+        let level = table(0.0);
+        let ahead = place + velocity * level.safe_for_s(&at, true);
+        assert!((ahead.norm() - 0.3).abs() < 1e-12, "{ahead}");
+        assert!(level.safe_for_s(&at, false) < level.safe_for_s(&at, true));
+        assert_eq!(table(7.0).safe_for_s(&at, true), f64::INFINITY);
+        assert!(table(7.0).safe_for_s(&at, false) < 1.0);
+        let (smooth, rest) = round(0.3, None, 0.0);
+        let ahead = place + velocity * smooth.safe_for_s(&at, false);
+        assert!((ahead.norm() - 0.3).abs() < 1e-12, "{ahead}");
+        assert_eq!(smooth.safe_for_s(&rest, false), f64::INFINITY);
+        // beside the edge it is looked at after a short way
+        let beside = state(0.0, [0.3, 0.0, 0.03]);
+        let resolution = level.resolution_m / level.fastest_m_s(&beside);
+        assert!(level.safe_for_s(&beside, true) >= resolution);
     }
 
     /// A toss begins straight above the middle of the table, which is downhill of it in axes of the table.
