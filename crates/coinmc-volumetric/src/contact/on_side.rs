@@ -195,8 +195,11 @@ impl ContactSolver<'_> {
         if !rolling.stops() {
             // drag alone never quite stops the coin; without drag it rolls forever
             return if rolling.slows() {
-                let way = rolling.distance().copysign(state[1]);
-                adapter.place.shift(0.0, way);
+                if self.rules.rule.awaits_rest() {
+                    // a table's edge counts where the coin will be at last
+                    let way = rolling.distance().copysign(state[1]);
+                    adapter.place.shift(0.0, way);
+                }
                 Exit::Decided(Decided::Side)
             } else {
                 Exit::NeverSettles

@@ -28,7 +28,8 @@
 //!
 //! On a slope along y the rim touches ξ ahead of its lowest point. What matters of that is that γx of the point
 //! that touches is less than that of the lowest one by ω_z ξ, and that fx has the moment −ξ fx about the
-//! vertical. γ is then the slip of the point that touches. (K_xx grows by ξ²/kt only, which is left out.)
+//! vertical. γ is then the slip of the point that touches. (Its γx' has −ξω_z' besides, which is left out: K_xx grows by ξ²/kt, and
+//! bx by ξ times what else turns ω_z, for a rolling coin ω_y Ω_a, a product of the slope and of the rate of leaning.)
 //!
 //! Sticking requires γ' = 0, slipping f = −μ N γ/|γ|. Drag adds −k v to the acceleration of the
 //! centre and −k_ω ω to ω'. On a tilted table its pull (see `crate::pull`) adds to bx and by. Without gyroscopic torque Ω_a = ω_a. (Le Saux, Leine & Glocker, J.

@@ -28,6 +28,44 @@ pub(crate) fn rolls_plainly(dynamics: &Dynamics, speed: f64, pull: f64) -> (f64,
     stops_plainly(slowing, speed)
 }
 
+/// Drag alone stops no coin in any time. One on an endless table is left where its face is decided, on a table with an
+/// edge where it will be at last: v/b farther.
+#[test]
+fn a_coin_that_drag_alone_slows_down_is_where_it_is_decided() {
+    for (radius_m, moves) in [(None, false), (Some(1.0), true)] {
+        let scene = generic_scene(|plane| {
+            let plane = plane
+                .with_friction_lengths(0.0, 0.0)
+                .expect("a valid surface");
+            radius_m.map_or(plane, |radius| {
+                plane.with_table_radius(radius).expect("a valid surface")
+            })
+        });
+        let model = model_of(&scene, &Settings::default());
+        let dynamics = &model.dynamics;
+        let mut solver = model.contact_solver(Usage::default());
+        let state = rolls(dynamics, 0.4);
+        let (mut motion, mut spin) = line_motion(dynamics, &state);
+        let mut place = Place::origin([1.0, 0.0]);
+        let mut adapter = ObserverAdapter {
+            observer: &mut Recorder::default(),
+            place: &mut place,
+            heads_up: true,
+            units: &model.units,
+        };
+        let exit = solver.roll_to_rest(&state, &mut motion, &mut spin, &mut adapter);
+        assert_eq!(exit, Exit::Decided(Decided::Side));
+        let way = place.way_from(&Place::origin([1.0, 0.0]));
+        let expected = RollingStop::new(dynamics, 0.4).distance();
+        let went = (way[0] * way[0] + way[1] * way[1]).sqrt();
+        let due = if moves { expected } else { 0.0 };
+        assert!(
+            (went - due).abs() < 1e-12 && expected > 0.01,
+            "{went} {due}"
+        );
+    }
+}
+
 /// Straight rolling ends where its equation of motion ends it, whichever way it goes and wherever in the
 /// laboratory, and is shown until then.
 #[test]
