@@ -13,6 +13,9 @@
 //! too narrow to see a bend and a parabola in a wide one, and its covariance holds what is not known
 //! of the bend.
 //!
+//! Counts that scatter about the fit by more than chance say that the curve has steps of its own in the window
+//! ([`Fit::excess`]): few of real scenes, where a coin hardly bounces.
+//!
 //! The fit maximises the posterior by Newton's method (McCullagh & Nelder, *Generalized Linear
 //! Models*, 1989, § 4.4), which is Fisher scoring here.
 
@@ -37,11 +40,29 @@ pub(super) struct Counts {
     pub(super) shown: u64,
 }
 
+/// How far from the middle of its window a fit uses counts, in half widths: those of wider windows before.
+pub(super) const USED: f64 = 4.0;
+/// Standard normal deviate of one in a hundred, beyond which a scatter is more than chance: a window that is narrowed
+/// in vain costs tosses, and a step that is overlooked the answer.
+const RARE: f64 = 2.33;
+
 /// The window of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Window {
     pub(super) middle: f64,
     pub(super) half: f64,
+}
+
+impl Window {
+    fn place(&self, counts: &Counts) -> f64 {
+        (counts.u - self.middle) / self.half
+    }
+
+    /// The counts at most so many half widths from the middle.
+    pub(super) fn uses(self, counts: &[Counts], reach: f64) -> impl Iterator<Item = &Counts> {
+        let near = move |counts: &&Counts| self.place(counts).abs() <= reach && counts.tosses > 0;
+        counts.iter().filter(near)
+    }
 }
 
 /// The log odds of a face near a root, with their covariance.
@@ -62,17 +83,10 @@ fn probability(log_odds: f64) -> f64 {
 }
 
 impl Fit {
-    /// The fit to all counts within the window (and somewhat beyond its ends); `None`
-    /// without at least two different values there.
-    pub(super) fn new(counts: &[Counts], window: Window) -> Option<Self> {
-        /// How far from the middle counts are used, in half widths.
-        const USED: f64 = 4.0;
-        let t = |counts: &Counts| (counts.u - window.middle) / window.half;
-        let used: Vec<Counts> = counts
-            .iter()
-            .filter(|counts| t(counts).abs() <= USED && counts.tosses > 0)
-            .copied()
-            .collect();
+    /// The fit to all counts that the window [uses](Window::uses); `None` without at least two different values there.
+    pub(super) fn new(counts: &[Counts], window: Window, reach: f64) -> Option<Self> {
+        let t = |counts: &Counts| window.place(counts);
+        let used: Vec<Counts> = window.uses(counts, reach).copied().collect();
         let first = used.first()?;
         if used.iter().all(|counts| counts.u == first.u) {
             return None;
@@ -90,6 +104,28 @@ impl Fit {
             });
         }
         fit
+    }
+
+    /// By how many times the counts scatter about the fit as much as chance lets them, as a ratio of standard deviations;
+    /// 1 where that may be chance, but for one in a hundred (Wilson & Hilferty, PNAS 17 (1931) 684).
+    pub(super) fn excess(&self, counts: &[Counts], reach: f64) -> f64 {
+        let (mut chi_squared, mut freedom): (f64, f64) = (0.0, -2.0);
+        for counts in self.window.uses(counts, reach) {
+            let (p, n) = (probability(self.at(counts.u).0), counts.tosses as f64);
+            let off = counts.shown as f64 - n * p;
+            chi_squared += off * off / (n * p * (1.0 - p));
+            freedom += 1.0;
+        }
+        if freedom < 1.0 {
+            return 1.0;
+        }
+        let spread = 2.0 / (9.0 * freedom);
+        let most = freedom * (1.0 - spread + RARE * spread.sqrt()).powi(3);
+        if chi_squared > most {
+            (chi_squared / freedom).sqrt()
+        } else {
+            1.0
+        }
     }
 
     fn features(&self, u: f64) -> Vector3<f64> {
@@ -223,7 +259,7 @@ mod tests {
     #[test]
     fn a_line_is_recovered() {
         let counts = expected(|u| -0.5 + 3.0 * u, 1 << 40);
-        let fit = Fit::new(&counts, WINDOW).expect("four values");
+        let fit = Fit::new(&counts, WINDOW, USED).expect("four values");
         assert!((fit.at(0.02).0 + 0.44).abs() < 1e-5);
         assert!((fit.slope(0.0).0 - 3.0).abs() < 1e-4);
         assert!((fit.root(-0.5).expect("a root")).abs() < 1e-5);
@@ -233,9 +269,9 @@ mod tests {
     #[test]
     fn a_bend_is_seen_or_allowed_for() {
         let bent = |u: f64| -0.5 + 3.0 * u + 1.5 * u * u;
-        let fit = Fit::new(&expected(bent, 1 << 40), WINDOW).expect("four values");
+        let fit = Fit::new(&expected(bent, 1 << 40), WINDOW, USED).expect("four values");
         assert!((fit.at(0.0).0 + 0.5).abs() < 1e-5);
-        let fit = Fit::new(&expected(bent, 100_000), WINDOW).expect("four values");
+        let fit = Fit::new(&expected(bent, 100_000), WINDOW, USED).expect("four values");
         let (value, error) = fit.at(0.0);
         assert!((value + 0.5).abs() < error, "{value} {error}");
     }
@@ -244,7 +280,7 @@ mod tests {
     /// of mass of the values the error of a line is 1/sqrt(Σ n p (1 − p)).
     #[test]
     fn the_error_is_that_of_binomial_counts() {
-        let fit = Fit::new(&expected(|_| 0.0, 10_000), WINDOW).expect("four values");
+        let fit = Fit::new(&expected(|_| 0.0, 10_000), WINDOW, USED).expect("four values");
         let error = fit.at(0.0025).1;
         assert!(
             (error - 1.0 / (4.0 * 2_500.0_f64).sqrt()).abs() < 1e-5,
@@ -259,13 +295,36 @@ mod tests {
             tosses: 10,
             shown: 3,
         };
-        assert!(Fit::new(&[one, one], WINDOW).is_none());
-        assert!(Fit::new(&[], WINDOW).is_none());
+        assert!(Fit::new(&[one, one], WINDOW, USED).is_none());
+        assert!(Fit::new(&[], WINDOW, USED).is_none());
+    }
+
+    /// Counts about a smooth curve scatter by chance; those of a step in the window by more.
+    #[test]
+    fn a_step_in_the_window_is_no_chance() {
+        let smooth = expected(|u| -0.5 + 3.0 * u, 4000);
+        let fit = Fit::new(&smooth, WINDOW, USED).expect("four values");
+        assert_eq!(fit.excess(&smooth, USED), 1.0);
+        let step = |u: f64| if u < 0.0 { -0.8 } else { -0.4 };
+        let stepped: Vec<Counts> = [0.1, 0.06, 0.03]
+            .into_iter()
+            .flat_map(|width| {
+                expected(step, 4000).into_iter().map(move |counts| Counts {
+                    u: counts.u * width / 0.1,
+                    ..counts
+                })
+            })
+            .collect();
+        let fit = Fit::new(&stepped, WINDOW, USED).expect("values");
+        let excess = fit.excess(&stepped, USED);
+        assert!(excess > 1.5 && excess < 4.0, "{excess}");
+        // of the narrowest alone, two values
+        assert_eq!(fit.excess(&stepped, 0.1), 1.0);
     }
 
     #[test]
     fn the_interval_holds_what_the_error_allows() {
-        let fit = Fit::new(&expected(|u| 4.0 * u, 10_000), WINDOW).expect("four values");
+        let fit = Fit::new(&expected(|u| 4.0 * u, 10_000), WINDOW, USED).expect("four values");
         let [lo, hi] = fit.interval(0.0, 0.0, 1.96, 0.0, 0.1);
         let (lo, hi) = (lo.expect("an end"), hi.expect("an end"));
         let arm = 1.96 * fit.at(0.0).1 / 4.0;

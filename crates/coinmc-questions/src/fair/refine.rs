@@ -6,9 +6,13 @@
 //! error is sqrt(P(1 − P)/n)/P', whatever the values in the window. The window shrinks with that
 //! error, down to a width in which the log odds bend little compared with the error that is asked
 //! for. The last rounds are as large as the fit says is needed.
+//!
+//! Where the counts scatter about the fit by more than chance, the curve has steps of its own in the window: the interval
+//! is widened by the ratio (Birge, Phys. Rev. 40 (1932) 207), and the next window is a quarter as wide and uses hardly any
+//! counts of wider ones, until the curve in it is smooth, or it is as narrow as the half width that is asked for.
 
 use super::axis::Axis;
-use super::fit::{Counts, Fit, Window, log_odds};
+use super::fit::{Counts, Fit, USED, Window, log_odds};
 use super::tosses::{Sample, Tosses};
 
 /// Values of a round, in half widths of the window from its middle.
@@ -27,6 +31,10 @@ const WIDER: f64 = 1.5;
 const MOST_ROUNDS: u32 = 24;
 /// Half width of the window, in standard errors of the root.
 const ERRORS: f64 = 3.0;
+/// The narrowest window on a curve with steps, in half widths that are asked for.
+const NARROWEST: f64 = 2.0;
+/// How far from the middle of its window a fit to a curve with steps uses counts, in half widths.
+const OWN: f64 = 1.5;
 
 /// What is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,6 +84,8 @@ struct Refinement<'a> {
     counts: Vec<Counts>,
     tosses: u64,
     undecided: u64,
+    /// How far from the middle of the window counts are used, in half widths.
+    reach: f64,
 }
 
 /// Finds the root between `from` and `to` (in u) with the tosses from number `first` on.
@@ -98,6 +108,7 @@ pub(super) fn refine<T: Tosses>(
         counts: vec![],
         tosses: 0,
         undecided: 0,
+        reach: USED,
     };
     let mut rounds = vec![];
     let mut slope = (f64::NAN, f64::NAN);
@@ -162,7 +173,7 @@ impl Refinement<'_> {
         let left = self.goal.tosses.saturating_sub(self.tosses);
         let grown = (GROWTH - 1) * self.tosses;
         let target = log_odds(self.goal.target);
-        let found = Fit::new(&self.counts, self.window)
+        let found = Fit::new(&self.counts, self.window, self.reach)
             .and_then(|fit| Some((fit, self.within_reach(fit.root(target)?)?)));
         let Some((fit, root)) = found else {
             return (round, Some(grown.min(left)).filter(|&n| n > 0), None);
@@ -175,7 +186,8 @@ impl Refinement<'_> {
         // undecided tosses could all show the face or none
         let allowance = self.undecided as f64 / self.tosses as f64 / variance;
         let reach = 2.0 * self.bracket.half;
-        let ends = fit.interval(root, target, self.goal.z, allowance, reach);
+        let excess = fit.excess(&self.counts, self.reach);
+        let ends = fit.interval(root, target, self.goal.z * excess, allowance, reach);
         round.value = value;
         [round.lo, round.hi] = ends.map(|end| end.map(|u| self.axis.value(u)));
         let slope = (slope * variance / rate, slope_error * variance / rate);
@@ -187,8 +199,12 @@ impl Refinement<'_> {
         // The few tosses that a budget may leave for the end do not tell the slope anew: they stay in
         // the window in which the tosses before told it.
         let few = next == left && next < self.tosses;
-        if !few {
+        if excess > 1.0 {
+            self.narrow_window(root, rate);
+        } else if !few && self.reach == USED {
             self.move_window(root, error, rate);
+        } else if !few {
+            self.window.middle = root;
         }
         let next = (!enough && next > 0).then_some(next);
         (round, next, Some(slope))
@@ -201,7 +217,13 @@ impl Refinement<'_> {
         const SPARE: f64 = 1.06;
         let Goal { target, z, .. } = *self.goal;
         let least = (z / (slope * self.goal.half_width)).powi(2) * target * (1.0 - target);
-        let tosses = self.tosses as f64;
+        let used = self.window.uses(&self.counts, self.reach);
+        let tosses = if self.reach == USED {
+            self.tosses
+        } else {
+            used.map(|counts| counts.tosses).sum()
+        };
+        let tosses = tosses as f64;
         let mut all = SPARE * least;
         if all < 1.02 * tosses {
             all = SPARE * tosses * (half_width / self.goal.half_width).powi(2);
@@ -219,20 +241,26 @@ impl Refinement<'_> {
     }
 
     /// Puts the window around the root: no narrower than the root is known, and no wider than is
-    /// needed for a slope.
+    /// needed for a slope, which the wider windows before tell too.
     fn move_window(&mut self, root: f64, error: f64, rate: f64) {
-        // With values up to h from the root, whose mean square distance is 5/9 h², a bend of the log
-        // odds by their own slope per unit of u moves the root by 5/18 h²: a tenth of the half width
-        // asked for with this h. (Still narrower, the slope would be known less well.)
+        /// In half widths that are asked for. With 2½ the slope takes a fifth more tosses; wider windows hold more of the
+        /// curve's own steps.
+        const NARROW: f64 = 4.0;
         let goal = self.goal.half_width / rate;
-        let narrow = (0.36 * goal).sqrt();
-        let half = (ERRORS * error)
-            .max(narrow)
-            .max(2.0 * goal)
-            .min(self.bracket.half);
+        let half = (ERRORS * error).max(NARROW * goal).min(self.bracket.half);
         let inside = self.bracket.half - half;
         let middle = self.bracket.middle + (root - self.bracket.middle).clamp(-inside, inside);
         self.window = Window { middle, half };
+    }
+}
+
+impl Refinement<'_> {
+    /// Puts a window a quarter as wide around the root, which uses counts in it and close to it.
+    fn narrow_window(&mut self, root: f64, rate: f64) {
+        self.reach = OWN;
+        let least = NARROWEST * self.goal.half_width / rate;
+        let half = (0.25 * self.window.half).max(least);
+        self.window = Window { middle: root, half };
     }
 }
 
