@@ -207,6 +207,32 @@ fn ctrl_c_and_termination_say_how_to_go_on() {
     }
 }
 
+/// A hang-up stops a run like Ctrl-C, and not at all one that was started to survive it, as by `nohup`.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_run_survives_a_hang_up_that_it_was_told_to_ignore() {
+    let bench = Bench::new();
+    let reference = bench.reference();
+    for (trap, code) in [("trap '' HUP; ", 0), ("", 130)] {
+        let out = bench.path(&format!("hung-up-{code}"));
+        let run = bench.run(&out);
+        let mut shell = Command::new("sh");
+        shell
+            .args(["-c", &format!("{trap}exec \"$0\" \"$@\"")])
+            .arg(run.get_program())
+            .args(run.get_args())
+            .args(["--threads", "1"])
+            .current_dir(bench.dir.path())
+            .stderr(Stdio::piped());
+        let mut child = shell.spawn().expect("sh starts");
+        wait_for(3, &out, &mut child);
+        send("-HUP", child.id());
+        let output = child.wait_with_output().expect("coinmc ends");
+        assert_eq!(output.status.code(), Some(code), "{}", text(&output.stderr));
+    }
+    assert_same(&reference, &bench.path("hung-up-0"), "after a hang-up");
+}
+
 #[test]
 fn a_finished_run_is_reported_again_at_once() {
     let bench = Bench::new();

@@ -386,3 +386,17 @@ fn a_question_that_is_stopped_is_one_json_document() {
     }
     assert!(!dir.path().join("map.html").exists());
 }
+
+/// A forecast that is stopped while it makes its trial tosses.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_check_that_is_stopped_is_one_json_document() {
+    let dir = bench(CONFIG);
+    let many = "coin.ratio={from=0.5,to=2.0,steps=200000}";
+    let output = interrupted(
+        dir.path(),
+        &["check", "toss.toml", "--set", many, "--format", "json"],
+    );
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(document(&output)["exit_code"], 130);
+}

@@ -1,9 +1,14 @@
-//! Ctrl-C and SIGTERM: the first asks the run to stop, the second stops the process.
+//! Ctrl-C, SIGTERM and SIGHUP: the first asks the run to stop, the second stops the process.
+//!
+//! A hang-up that the process was started to ignore, as by `nohup`, stops nothing. (Where that is known: on Linux.)
 //!
 //! `timeout`, shells and schedulers send a signal to the process and to its group, so that two arrive
 //! at once. A signal that follows another within a second is the same one.
 
-use crate::exit::INTERRUPTED;
+use crate::exit::{Failure, INTERRUPTED};
+use crate::output::Console;
+use anyhow::Context;
+use std::io;
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -56,9 +61,9 @@ impl Signals {
 /// is complete or ignored, and other files are renamed into place.
 pub(crate) fn listen(
     mut on_first: impl FnMut() + Send + 'static,
-) -> Result<&'static AtomicBool, ctrlc::Error> {
+) -> io::Result<&'static AtomicBool> {
     let mut signals = Signals::new(SAME_SIGNAL);
-    ctrlc::set_handler(move || match signals.number(Instant::now()) {
+    on_signals(move || match signals.number(Instant::now()) {
         None => {}
         Some(1) => {
             CANCEL.store(true, Ordering::Relaxed);
@@ -75,9 +80,9 @@ pub(crate) fn listen(
 pub(crate) fn listen_twice(
     mut on_first: impl FnMut() + Send + 'static,
     mut on_second: impl FnMut() + Send + 'static,
-) -> Result<(&'static AtomicBool, &'static AtomicBool), ctrlc::Error> {
+) -> io::Result<(&'static AtomicBool, &'static AtomicBool)> {
     let mut signals = Signals::new(SAME_SIGNAL_AT_MOTORS);
-    ctrlc::set_handler(move || match signals.number(Instant::now()) {
+    on_signals(move || match signals.number(Instant::now()) {
         None => {}
         Some(1) => {
             CANCEL.store(true, Ordering::Relaxed);
@@ -92,9 +97,71 @@ pub(crate) fn listen_twice(
     Ok((&CANCEL, &STOP))
 }
 
+/// Lets the first signal end the process at once, with what a failure prints: for work that nothing is lost of.
+pub(crate) fn end_at_once(console: &Console) -> Result<(), Failure> {
+    let console = *console;
+    let end = move || process::exit(i32::from(Failure::Interrupted.report(&console)));
+    on_signals(end)
+        .context("cannot listen for signals")
+        .map_err(Failure::Runtime)
+}
+
+/// Calls `handle` at each signal, on a thread of its own.
+#[cfg(unix)]
+fn on_signals(mut handle: impl FnMut() + Send + 'static) -> io::Result<()> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let hang_up = (!ignores_hang_up()).then_some(SIGHUP);
+    let signals = [SIGINT, SIGTERM].into_iter().chain(hang_up);
+    let mut signals = signal_hook::iterator::Signals::new(signals)?;
+    let listen = move || signals.forever().for_each(|_| handle());
+    std::thread::Builder::new()
+        .name("signals".to_owned())
+        .spawn(listen)?;
+    Ok(())
+}
+
+#[cfg(not(unix))]
+fn on_signals(handle: impl FnMut() + Send + 'static) -> io::Result<()> {
+    ctrlc::set_handler(handle).map_err(io::Error::other)
+}
+
+/// Whether whoever started the process lets it ignore hang-ups.
+#[cfg(unix)]
+fn ignores_hang_up() -> bool {
+    let status = std::fs::read_to_string("/proc/self/status");
+    status.is_ok_and(|status| is_ignored(&status, signal_hook::consts::SIGHUP))
+}
+
+/// Whether a process with this status (`man 5 proc`) ignores a signal.
+#[cfg(unix)]
+fn is_ignored(status: &str, signal: i32) -> bool {
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn an_ignored_signal_has_its_bit() {
+        let status = |mask: &str| format!("Name:\tcoinmc\nSigBlk:\t{0}\nSigIgn:\t{mask}\n", "1");
+        for (mask, signal, ignored) in [
+            ("0000000000000001", 1, true),
+            ("0000000000000002", 1, false),
+            ("0000000000004002", 15, true),
+            ("zz", 1, false),
+        ] {
+            assert_eq!(
+                is_ignored(&status(mask), signal),
+                ignored,
+                "{mask} {signal}"
+            );
+        }
+        assert!(!is_ignored("", 1));
+    }
 
     #[test]
     fn a_signal_within_a_second_of_another_is_the_same() {

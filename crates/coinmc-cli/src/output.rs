@@ -1,6 +1,6 @@
 //! The output streams: results go to standard output, everything else to standard error.
 
-use crate::terminal::{Style, harmless};
+use crate::terminal::{Style, harmless, harmless_json};
 use clap::{ColorChoice, ValueEnum};
 use serde_json::Value;
 use std::io::{self, BufWriter, StdoutLock, Write};
@@ -123,7 +123,8 @@ fn of_standard_output(error: io::Error) -> io::Error {
 
 /// Writes a document to standard output.
 pub(crate) fn print_json(document: &Value) -> io::Result<()> {
-    print(&format!("{document:#}\n"))
+    let text = format!("{document:#}\n");
+    print_bytes(harmless_json(&text).as_bytes())
 }
 
 /// Writes a line to standard error; a failure to do so cannot be reported anywhere.

@@ -2,6 +2,7 @@
 //! that a terminal obeys: everything printed passes through here.
 
 use std::borrow::Cow;
+use std::fmt::Write;
 
 /// The text with its control characters shown instead of sent: `\u{1b}` for an escape. Line ends, tabs
 /// and colours (escape sequences that end in `m`) stay; the program's own sequences are only these.
@@ -20,6 +21,23 @@ pub(crate) fn harmless(text: &str) -> Cow<'_, str> {
             shown.push_str(piece);
         }
         rest = after;
+    }
+    Cow::Owned(shown)
+}
+
+/// A JSON document in which these characters, that only its strings may hold, are escaped as JSON has it.
+pub(crate) fn harmless_json(document: &str) -> Cow<'_, str> {
+    if !document.chars().any(is_obeyed) {
+        return Cow::Borrowed(document);
+    }
+    let mut shown = String::with_capacity(document.len() + 16);
+    for c in document.chars() {
+        if is_obeyed(c) {
+            // all are below 2^16
+            let _ = write!(shown, "\\u{:04x}", u32::from(c));
+        } else {
+            shown.push(c);
+        }
     }
     Cow::Owned(shown)
 }
@@ -50,6 +68,25 @@ fn color(text: &str) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What a terminal would obey is escaped, and the document says the same.
+    #[test]
+    fn a_document_stays_json() {
+        for name in [
+            "plain ± text",
+            "gnp.\u{202e}exe",
+            "\u{7f}\u{9b}2J",
+            "\u{1b}[33m",
+            "a\nb\t\u{200f}",
+        ] {
+            let document = serde_json::json!({ "out": name });
+            let text = format!("{document:#}");
+            let shown = harmless_json(&text);
+            assert!(!shown.chars().any(is_obeyed), "{shown}");
+            let read: serde_json::Value = serde_json::from_str(&shown).expect("JSON");
+            assert_eq!(read, document);
+        }
+    }
 
     #[test]
     fn what_a_terminal_would_obey_is_shown() {

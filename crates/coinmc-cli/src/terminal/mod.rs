@@ -13,7 +13,7 @@ mod wrap;
 
 pub(crate) use ascii::in_ascii;
 pub(crate) use coinmc_questions::number::{compact, grouped};
-pub(crate) use harmless::harmless;
+pub(crate) use harmless::{harmless, harmless_json};
 pub(crate) use number::{
     count, decimals_for, decimals_that_show, duration, four_decimals_for, signed, tosses,
     with_interval,

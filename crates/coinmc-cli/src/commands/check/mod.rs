@@ -6,6 +6,7 @@ mod missing;
 mod rare;
 
 use crate::exit::{Failure, Outcome};
+use crate::interrupt;
 use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::progress::with_prefix;
 use crate::terminal::{Colors, Style, compact, count, duration, grouped, in_ascii, wrapped};
@@ -107,6 +108,7 @@ impl Check {
         if self.missing {
             return missing::report(&self.paths, console);
         }
+        interrupt::end_at_once(console)?;
         let [config] = &self.paths[..] else {
             return Err(Failure::Input(anyhow!(
                 "check takes one config; several run directories need --missing"

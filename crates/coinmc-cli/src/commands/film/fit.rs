@@ -6,6 +6,7 @@ use super::law::LawName;
 use super::report;
 use super::scene::SceneArguments;
 use crate::exit::{Failure, Outcome};
+use crate::interrupt;
 use crate::output::{self, Console, Format};
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
@@ -109,6 +110,7 @@ impl Fit {
                 )));
             }
         }
+        interrupt::end_at_once(console)?;
         let files = begin_new(self.out.iter().chain(&self.residuals))?;
         let (models, options) = self.task()?;
         let footage = self.columns.read_once_each(&self.files)?;
