@@ -129,6 +129,22 @@ fn a_result_is_one_json_document() {
     }
 }
 
+/// A page that cannot be made is told before anything is tossed, or in place of the result: under a name that is too long for
+/// any file system.
+#[test]
+fn a_page_that_cannot_be_made_is_one_json_document_too() {
+    let dir = bench(CONFIG);
+    let too_long = format!("{}.html", "x".repeat(300));
+    for (page, code) in [("nowhere/page.html", 2), (too_long.as_str(), 1)] {
+        let report = format!("--report={page}");
+        let arguments = ["run", "toss.toml", "--format", "json", "--quiet", &report];
+        let output = coinmc(dir.path(), &arguments);
+        assert_eq!(output.status.code(), Some(code));
+        assert_eq!(document(&output)["kind"], "error");
+        assert_eq!(dir.path().join("runs").exists(), code == 1);
+    }
+}
+
 #[test]
 fn problems_are_one_json_document_too() {
     let dir = bench("sede = 1\n[coin]\nratio = -1\n");

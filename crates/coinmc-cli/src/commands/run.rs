@@ -11,7 +11,7 @@ use crate::terminal::progress::{Progress, with_prefix};
 use crate::terminal::summary::{FAIR, markdown, summary};
 use crate::terminal::{compact, count, duration, grouped, tosses};
 use crate::time_limit::{self, TimeLimit};
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 use clap::Args;
 use coinmc::OnDemand;
 use coinmc::config::{self, Override};
@@ -98,6 +98,15 @@ impl Run {
         if let Some((file, replaceable)) = &page {
             replaceable.check(file)?;
             must_end_in(file, "html")?;
+            let folder = file.parent().unwrap_or(Path::new(""));
+            let is_there = folder == out || folder.as_os_str().is_empty() || folder.is_dir();
+            if !is_there {
+                return Err(Failure::Input(anyhow!(
+                    "--report {}: there is no directory {}",
+                    file.display(),
+                    folder.display()
+                )));
+            }
         }
         let progress = Progress::of(&plan, *console.stderr(), self.quiet);
         if !self.quiet {
@@ -128,14 +137,22 @@ impl Run {
         if !self.quiet {
             output::note(&closing_line(&report, &progress));
         }
+        let made = page
+            .map(|(file, replaceable)| make_page(&file, replaceable, &out).map(|()| file))
+            .transpose();
+        let made = match made {
+            // there is one document: the error
+            Err(error) if self.format == ResultFormat::Json => return Err(error),
+            made => made,
+        };
         let stopped = present(&report, &out, &self.plot, console, self.format, self.quiet)?;
         let outcome = if stopped == Outcome::Interrupted && limit.is_reached() {
             Outcome::ShortOfTarget
         } else {
             stopped
         };
-        if let Some((file, replaceable)) = page {
-            self.make_page(&file, replaceable, &out)?;
+        if let Some(file) = made?.filter(|_| !self.quiet) {
+            output::note(&format!("Report: {}", file.display()));
         }
         Ok(outcome)
     }
@@ -152,21 +169,6 @@ impl Run {
         Some((PathBuf::from(file), Replaceable::PageOf(hashes)))
     }
 
-    /// The page of the run, in place of that of an earlier call of the same command.
-    fn make_page(&self, file: &Path, replaceable: Replaceable, out: &Path) -> Result<(), Failure> {
-        let page = Page::begin(file, replaceable)?;
-        let run = coinmc_report::Run::open(out, &())?;
-        page.write(&coinmc_report::report(
-            &[run],
-            None,
-            &coinmc_report::Samples::default(),
-        )?)?;
-        if !self.quiet {
-            output::note(&format!("Report: {}", file.display()));
-        }
-        Ok(())
-    }
-
     fn default_out(&self, plan: &Plan) -> PathBuf {
         let stem = self
             .config
@@ -179,6 +181,18 @@ impl Run {
         }
         Path::new("runs").join(name)
     }
+}
+
+/// The page of the run, in place of that of an earlier call of the same command.
+fn make_page(file: &Path, replaceable: Replaceable, out: &Path) -> Result<(), Failure> {
+    let page = Page::begin(file, replaceable)?;
+    let run = coinmc_report::Run::open(out, &())?;
+    page.write(&coinmc_report::report(
+        &[run],
+        None,
+        &coinmc_report::Samples::default(),
+    )?)?;
+    Ok(())
 }
 
 /// Result on standard output, advice on standard error unless `quiet`.

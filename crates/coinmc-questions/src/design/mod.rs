@@ -249,9 +249,16 @@ impl Designed {
     pub fn title(&self) -> &'static str {
         if self.faces.is_some() {
             "A coin with a conical edge"
-        } else {
+        } else if self.is_for_a_third() {
             "A fair coin with three sides"
+        } else {
+            "A coin with three sides"
         }
+    }
+
+    /// Whether the side is to be as likely as each face.
+    pub(crate) fn is_for_a_third(&self) -> bool {
+        (self.fair.question.target - 1.0 / 3.0).abs() < 1e-6
     }
 
     /// The page to print and keep with the coin, SVG.
@@ -277,6 +284,46 @@ impl Designed {
 mod tests {
     use super::*;
     use std::sync::atomic::AtomicBool;
+
+    /// Its title and its sheet say of a coin that it is fair only if that is what it is for.
+    #[test]
+    fn a_coin_is_called_fair_if_a_third_was_asked_for() {
+        let text = "surface = { restitution = 0.5, friction = 0.3, landing = 'adhesive' }\n\
+                    launch.preset = 'robot'\nengine.flat = {}";
+        for (target, title) in [
+            (1.0 / 3.0, "A fair coin with three sides"),
+            (0.5, "A coin with three sides"),
+        ] {
+            let coin = PrintedCoin {
+                diameter_m: 0.024,
+                edge: coinmc_solid::Edge::Sharp,
+                draft_deg: None,
+                marks: false,
+                density_kg_m3: 1240.0,
+                infill: None,
+            };
+            let question = Design {
+                coin,
+                target,
+                half_width: 0.05,
+            };
+            let cancel = AtomicBool::new(false);
+            let workers = Workers {
+                threads: None,
+                cancel: &cancel,
+                made: &|_| (),
+            };
+            let template = Template::new("inline", text, &[]);
+            let designed = design(&template, None, &[], &question, &workers).expect("a design");
+            assert_eq!(designed.title(), title);
+            let sheet = designed.sheet();
+            assert!(sheet.contains(title), "{sheet}");
+            assert_eq!(
+                sheet.contains("fair coin has"),
+                target < 0.4 && sheet.contains("coin has")
+            );
+        }
+    }
 
     /// Before a toss is made, and by the reason that it is.
     #[test]

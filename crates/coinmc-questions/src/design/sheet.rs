@@ -212,7 +212,12 @@ impl Page {
         }
         self.heading("What the answer rests on");
         let columns = [0.0, 72.0, 92.0, 125.0];
-        let titles = ["", "assumed", "if it were", "a fair coin has H/R"];
+        let ratio = if designed.is_for_a_third() {
+            "a fair coin has H/R"
+        } else {
+            "the coin has H/R"
+        };
+        let titles = ["", "assumed", "if it were", ratio];
         let row = |cells: [String; 4]| columns.into_iter().zip(cells).collect::<Vec<_>>();
         self.row(&row(titles.map(str::to_owned)));
         for effect in &designed.effects {

@@ -134,7 +134,11 @@ fn sbatch(run: &str, jobs: u32, machines: &Machines) -> String {
 /// The command that runs a config with these values of `--set`, for a shell.
 pub(super) fn run<'a>(config: &Path, sets: impl Iterator<Item = &'a str>) -> String {
     let sets = sets.map(|set| format!(" --set {}", quoted(set)));
-    let config = config.to_string_lossy();
+    let mut config = config.to_string_lossy();
+    if config.starts_with('-') {
+        // no option
+        config = format!("./{config}").into();
+    }
     format!("coinmc run {}{}", quoted(&config), sets.collect::<String>())
 }
 
@@ -198,6 +202,9 @@ mod tests {
             "coinmc run 'my coin.toml' --set stop.tosses=1e9 --set 'coin.ratio=[1, 2]'"
         );
         assert_eq!(quoted(&run).matches(r"'\''").count(), 4);
+        // no option
+        let dash = self::run(Path::new("-dash.toml"), std::iter::empty());
+        assert_eq!(dash, "coinmc run ./-dash.toml");
     }
 
     #[test]
