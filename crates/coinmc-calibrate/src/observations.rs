@@ -191,7 +191,8 @@ impl Observations {
                 return Ok(());
             }
             Content::Film(drops) => {
-                let fitted = drops.fitted(&scene, folder, &mut taken.films);
+                let law = plan.points[0].engine.law();
+                let fitted = drops.fitted((&scene, law), folder, &mut taken.films);
                 let filmed = fitted.map_err(|problems| place.problems(problems))?;
                 let remarks = filmed.remarks.iter();
                 self.film_remarks

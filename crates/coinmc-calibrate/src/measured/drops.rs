@@ -16,7 +16,8 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Drops {
     files: Vec<PathBuf>,
-    law: FlatLaw,
+    /// `None`: that of the engine.
+    law: Option<FlatLaw>,
     bounces: usize,
 }
 
@@ -25,6 +26,11 @@ const LAWS: [(&str, FlatLaw); 2] = [
     ("moreau", FlatLaw::Moreau),
     ("chatterjee-ruina", FlatLaw::ChatterjeeRuina),
 ];
+
+fn law_of(name: &str) -> Option<FlatLaw> {
+    let law = LAWS.iter().find(|(known, _)| *known == name);
+    law.map(|(_, law)| *law)
+}
 
 /// What filmed drops say.
 pub(crate) struct Filmed {
@@ -45,7 +51,7 @@ impl Drops {
             ),
             field(
                 "law",
-                "Law of impact that is fitted.",
+                "Law of impact that is fitted; absent: that of the engine, or else `chatterjee-ruina`.",
                 KeyKind::Word(vec![
                     word(
                         "moreau",
@@ -53,7 +59,7 @@ impl Drops {
                     ),
                     word("chatterjee-ruina", "the law of Chatterjee and Ruina"),
                 ]),
-                Absent::Is(Fallback::Word("chatterjee-ruina")),
+                Absent::Omitted,
             ),
             field(
                 "bounces",
@@ -73,23 +79,26 @@ impl Drops {
             );
             return Err(ReadError::new(message).at("files"));
         }
-        let name = values.word("law")?;
-        let law = LAWS.iter().find(|(known, _)| *known == name);
+        let law = match values.get("law") {
+            Some(_) => law_of(values.word("law")?),
+            None => None,
+        };
         Ok(Self {
             files: files.iter().map(PathBuf::from).collect(),
-            law: law.map_or(FlatLaw::ChatterjeeRuina, |(_, law)| *law),
+            law,
             bounces: values.integer("bounces")?,
         })
     }
 
-    /// Reads and fits the drops; files are sought from the folder of the config. `seen` are those of the tables before,
+    /// Reads and fits the drops; files are sought from the folder of the config, and the law is that of the engine if none is
+    /// given: what is measured is the restitution of the law that tosses. `seen` are those of the tables before,
     /// to which these are added: a drop given twice would count as two.
     ///
     /// # Errors
     /// What is wrong with each file, or why there is no fit.
     pub(crate) fn fitted(
         &self,
-        scene: &Scene,
+        (scene, law): (&Scene, &str),
         folder: &Path,
         seen: &mut Vec<PathBuf>,
     ) -> Result<Filmed, Vec<String>> {
@@ -106,7 +115,10 @@ impl Drops {
             return Err(problems);
         }
         let model = Model {
-            law: self.law,
+            law: self
+                .law
+                .or_else(|| law_of(law))
+                .unwrap_or(FlatLaw::ChatterjeeRuina),
             coin: scene.coin,
             gravity_m_s2: scene.gravity_m_s2(),
         };

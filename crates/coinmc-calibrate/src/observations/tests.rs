@@ -208,7 +208,8 @@ fn an_error_that_reaches_ninety_degrees_is_refused() {
     assert!(message.contains("at least one number"), "{message}");
 }
 
-/// The examples' film, of a law that is not theirs: what its fit says of itself is passed on.
+/// The examples' film by a law that is not its own: what its fit says of itself is passed on. Without a law it is the
+/// engine's, which made the film with a restitution of ½.
 #[test]
 fn doubts_of_a_film_are_passed_on() {
     let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
@@ -219,7 +220,12 @@ fn doubts_of_a_film_are_passed_on() {
         );
         Observations::parse("inline", &text, &[], examples.as_ref())
     };
-    let observed = film("[[film]]\nfiles = ['drop-film.txt']").unwrap();
+    let own = film("[[film]]\nfiles = ['drop-film.txt']").unwrap();
+    assert!(own.film_remarks.is_empty(), "{:?}", own.film_remarks);
+    assert!((own.readings[0].value - 0.5).abs() < 2e-3);
+    let other = "[[film]]\nlaw = 'chatterjee-ruina'\nfiles = ['drop-film.txt']";
+    let observed = film(other).unwrap();
+    assert!((observed.readings[0].value - 0.5).abs() > 4e-3);
     let remark = &observed.film_remarks[0];
     assert!(
         remark.starts_with("film 1: residuals of x_m are correlated"),
