@@ -5,7 +5,7 @@ use crate::CalibrationError;
 /// How much work a calibration may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Settings {
-    /// Surfaces at which coins are tossed, drawn from the prior.
+    /// Surfaces at which coins are tossed, drawn from a distribution somewhat wider than the prior.
     pub points: u64,
     /// Tosses at each.
     pub tosses: u64,

@@ -140,7 +140,7 @@ pub struct DecisionRule {
     resting: [f64; 2],
     /// tan β of a tilted table, else 0.
     slope: f64,
-    /// Cosine of the tilt at the balance: h, as R² + h² = 1.
+    /// Cosine of the tilt at the balance: of a cylinder h, as R² + h² = 1.
     balance: f64,
     /// The energies at the two balances of a coin with a conical edge.
     conical: Option<Barriers>,

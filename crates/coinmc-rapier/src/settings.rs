@@ -103,7 +103,7 @@ names!(Gyroscopic {
     Rapier = "rapier": "Rapier, by an explicit term that gains energy",
 });
 names!(Standing {
-    Drag = "drag": "this engine, by a third at a time, without the steps between",
+    Drag = "drag": "this engine, by 30 % at a time, without the steps between",
     Rapier = "rapier": "Rapier, step by step",
 });
 names!(Decision {

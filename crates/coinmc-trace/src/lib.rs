@@ -12,7 +12,7 @@
 //! * [`Recorder`] is the observer that records; it works with any engine.
 //!
 //! States between events are computed by the engine itself (in flight in closed form, in contact by a
-//! step of its own integrator), never interpolated; times of events are exact. docs/reference/traces.md
+//! step of its own integrator), interpolated between these on rough ground alone; times of events are exact. docs/reference/traces.md
 //! describes the files.
 
 mod condition;

@@ -1,4 +1,4 @@
-//! The last slide of a coin flat on its face, on a table with an edge.
+//! The last slide of a coin flat on its face, on a table with an edge or a tilted one.
 //!
 //! The rim carries the weight evenly (a coin's face is lower than its rim), and every point of it has
 //! Coulomb friction. With the velocity v of the centre, w = R ω_a, and the slip u = (v − w sin φ,
@@ -72,7 +72,7 @@ pub(crate) fn pulled_way_and_time(
     let slope = (pull[0] * pull[0] + pull[1] * pull[1]).sqrt();
     let end = END * slip(v, w).max(NEGLIGIBLE);
     while slip(v, w) > end {
-        // friction less the pull slows down, at the least
+        // no faster than friction and the pull together change the slip
         let step = STEP * slip(v, w) / ((mu + slope) * inertia.max(1.0));
         let speed = (v[0] * v[0] + v[1] * v[1]).sqrt();
         let downwards = v[0] * pull[0] + v[1] * pull[1];

@@ -75,7 +75,7 @@ impl Sample {
             .collect()
     }
 
-    /// ln of the likelihood at probabilities, each at least `floor`.
+    /// ln of the likelihood at probabilities, of which none counts as less than 1e-12.
     pub(super) fn log_likelihood(&self, probabilities: &[[f64; 3]]) -> f64 {
         let rows = self.faces.iter().zip(probabilities);
         rows.flat_map(|(faces, p)| faces.iter().zip(p))

@@ -53,7 +53,7 @@ pub(super) fn best(tossed: &Tossed) -> Option<Validated> {
         .collect();
     let places = 0..tried.len();
     let best = places.max_by(|a, b| tried[*a].score.total_cmp(&tried[*b].score))?;
-    // the next degree shows what this one lacks; of the highest one the one below says it too high
+    // the next degree shows what this one lacks; what the highest one lacks is bounded by its difference to the one below
     let other = tried
         .get(best + 1)
         .or_else(|| tried.get(best.checked_sub(1)?));

@@ -10,8 +10,8 @@
 //! g_j(k + 1) − g_j(k) = ln(n s/(k + 1)),    s = p_j, or of two samples (c_j − k)/Σc:
 //! ```
 //!
-//! no logarithm of a factorial, which would lose the digits that tell counts apart where a model has 1e9 tosses. (n
-//! and Σc add the same to the weight of all counts.) The p-value is the probability of all counts that are no more probable than those
+//! no logarithm of a factorial, which would lose the digits that tell counts apart where a model has 1e9 tosses. (The
+//! terms in n and Σc alone are the same for all counts, and drop out of the probabilities.) The p-value is the probability of all counts that are no more probable than those
 //! seen.
 //!
 //! As the g_j are concave, w has one peak over the number of heads for each number on the side, and one over the

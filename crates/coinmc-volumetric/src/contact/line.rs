@@ -1,4 +1,4 @@
-//! The equations of motion of a coin on its side: both rims touch the surface, the tilt is zero.
+//! The equations of motion of a coin on its side: both rims touch the surface, u is level.
 //!
 //! With u = (1, 0, 0) the two contact points are r = (∓h, 0, −R), and slip at
 //! γ_i = (v_x, v_y + R ω_a ∓ h ω_z). In the frame that turns with ω_z,

@@ -70,9 +70,9 @@ pub(crate) use rim::{Mode, OMEGA_Y, Rates, RimState, SLIP_X, SLIP_Y, TILT};
 pub(crate) use rolling_stop::{RollingStop, way_to_rest};
 pub(crate) use rules::{ContactRules, Usage};
 pub(crate) use scalar_step::ScalarStep;
-pub(crate) use solver::ContactSolver;
+pub(crate) use solver::{ContactSolver, RESTART_SLIP};
 pub(crate) use state::{place, place_unfolded, rim_state};
-pub(crate) use step::{StepTrial, can_stick, holds, slip_speed, step_limit};
+pub(crate) use step::{LEAST_JAM_MARGIN, StepTrial, can_stick, holds, slip_speed, step_limit};
 pub(crate) use tilt_search::TiltSearch;
 
 #[cfg(test)]

@@ -8,7 +8,8 @@ use coinmc_core::Decided;
 pub(crate) enum Exit {
     /// The normal force has vanished: flight.
     LiftOff,
-    /// The other rim has come down: the coin is on its side, cos = 0, and its tilt still changes.
+    /// The other rim has come down, and the tilt still changes: the coin is on its side or its conical edge, or the other
+    /// rim is on the rough ground.
     OtherRim,
     /// The tilt has vanished: the opposite point of the rim has come down.
     Level,

@@ -15,7 +15,7 @@ use coinmc_core::Decided;
 /// slip then settles within a time of that order.
 pub(super) const INITIAL_SLIP: f64 = 1.0;
 /// A slip that slows down to this fraction of the initial slip starts anew.
-pub(super) const RESTART_SLIP: f64 = 0.1;
+pub(crate) const RESTART_SLIP: f64 = 0.1;
 
 /// The contact of one toss.
 pub(crate) struct ContactSolver<'a> {

@@ -15,7 +15,7 @@ pub(super) const SIDE_ANGLE: f64 = 1e-12;
 /// In one step a slip is slowed down to this fraction of itself at most.
 const MOST_BRAKING: f64 = 0.05;
 /// Painlevé: K_zz − μ K_xz n_x below this counts as 0. (Without friction it is 1 + rx²/kt.)
-pub(super) const LEAST_JAM_MARGIN: f64 = 1e-3;
+pub(crate) const LEAST_JAM_MARGIN: f64 = 1e-3;
 
 /// A step to try.
 pub(crate) struct StepTrial<L: Lane> {

@@ -3,8 +3,8 @@
 use super::tracks::rim_points;
 use super::walk::{FLATTEST, Next, Touch, Walk};
 use crate::contact::{
-    Mode, Rates, RimState, ScalarStep, Trial, can_stick, holds, is_accepted, next_length,
-    place_unfolded, rim_state, shorter, slip_speed, step_limit,
+    LEAST_JAM_MARGIN, Mode, RESTART_SLIP, Rates, RimState, ScalarStep, Trial, can_stick, holds,
+    is_accepted, next_length, place_unfolded, rim_state, shorter, slip_speed, step_limit,
 };
 use crate::contact::{OMEGA_Y, SLIP_X, SLIP_Y, TILT};
 use crate::impact::{ImpactLaw, Impulse, jam_impulse};
@@ -200,7 +200,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let slip = slip_speed(&state);
         if dynamics.friction.mu == 0.0 || slip > stick_speed {
             let contact = slipping(state);
-            return if contact.now.jam_margin < 1e-3 && contact.now.press > 0.0 {
+            return if contact.now.jam_margin < LEAST_JAM_MARGIN && contact.now.press > 0.0 {
                 self.end_jam()
             } else {
                 contact
@@ -217,7 +217,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         }
         let [fx, fy] = now.friction;
         let needed = (fx * fx + fy * fy).sqrt();
-        if slip < 0.1 * stick_speed && needed > 0.0 {
+        if slip < RESTART_SLIP * stick_speed && needed > 0.0 {
             let scale = -stick_speed / needed;
             slipping(self.with_slip(scale * fx, scale * fy))
         } else {

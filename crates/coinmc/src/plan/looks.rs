@@ -330,9 +330,9 @@ impl Looks {
             return f64::INFINITY;
         }
         let mut n = least.clamp(MULTIPLE as f64, MOST);
-        // An excess e of intervals that shrink like 1/√n asks for e n tosses, of those of a face that is
-        // never seen, like 1/n, for √e n: the latter converges for both, at worst by half of what is missing in the
-        // logarithm at a time.
+        // Intervals that shrink like 1/√n and exceed their targets by the factor √e need e n tosses; those of a face
+        // that is never seen shrink like 1/n and need √e n. Steps by √e converge for both: where e n are needed, the
+        // logarithm of what is missing halves each time.
         for _ in 0..24 {
             n = (n * excess(n).sqrt()).max(1.0);
             if n > MOST {

@@ -398,7 +398,7 @@ impl Schedule {
     }
 
     /// Shares what the whole run may still spend among the points that need more, once all have been looked
-    /// at. What they need of course shrinks their intervals to the targets; if there is less, each gets the
+    /// at. With all that they need their intervals shrink to the targets. If there is less, each gets the
     /// same part of its need, so that all intervals end as long in units of their targets, and the longest is
     /// as short as can be.
     fn share_out(&mut self) -> bool {
