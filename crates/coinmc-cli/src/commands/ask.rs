@@ -10,7 +10,7 @@ use crate::terminal::{
     Colors, Style, compact, decimals_that_show, four_decimals_for, grouped, in_ascii,
 };
 use anyhow::anyhow;
-use clap::Args;
+use clap::{ArgGroup, Args};
 use coinmc::plan::MAX_TOSSES;
 use coinmc_atlas::{Answer, Atlas, AtlasError, Launch, Place, scene, toss};
 use coinmc_core::{Face, Material};
@@ -30,13 +30,14 @@ Launches: hand, dropped, rolled. Materials: glass, steel, laminate, wood, cloth,
 /// millions of them, which know their own error. With --sure it tosses that very coin as well.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
+#[command(group = ArgGroup::new("size").required(true).args(["ratio", "thickness"]))]
 pub(crate) struct Ask {
     /// Height over radius, H/R
-    #[arg(long, value_name = "H/R", required_unless_present = "thickness")]
+    #[arg(long, value_name = "H/R")]
     ratio: Option<f64>,
 
     /// Thickness of the coin, such as 2.33mm, instead of the ratio
-    #[arg(long, value_name = "LENGTH", conflicts_with = "ratio")]
+    #[arg(long, value_name = "LENGTH")]
     thickness: Option<Length>,
 
     /// What it lands on
@@ -291,6 +292,18 @@ mod tests {
             found[0].contains("launch `thrown`") && found.len() == 2,
             "{found:?}"
         );
+    }
+
+    /// The thickness or the ratio is needed, and the message names both.
+    #[test]
+    fn a_coin_has_one_size() {
+        let none = asked(&[]).expect_err("no size");
+        assert!(
+            none.contains("--ratio") && none.contains("--thickness"),
+            "{none}"
+        );
+        assert!(asked(&["--ratio", "1", "--thickness", "2mm"]).is_err());
+        assert!(asked(&["--thickness", "2mm"]).is_ok());
     }
 
     #[test]
