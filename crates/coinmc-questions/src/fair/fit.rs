@@ -112,8 +112,9 @@ impl Fit {
         let (mut chi_squared, mut freedom): (f64, f64) = (0.0, -2.0);
         for counts in self.window.uses(counts, reach) {
             let (p, n) = (probability(self.at(counts.u).0), counts.tosses as f64);
-            let off = counts.shown as f64 - n * p;
-            chi_squared += off * off / (n * p * (1.0 - p));
+            let (off, variance) = (counts.shown as f64 - n * p, n * p * (1.0 - p));
+            // next to 0 or 1 it may round to nothing
+            chi_squared += off * off / variance.max(f64::EPSILON);
             freedom += 1.0;
         }
         if freedom < 1.0 {
