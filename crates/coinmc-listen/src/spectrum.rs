@@ -89,21 +89,22 @@ impl Spectra {
         (from, &samples[from..to])
     }
 
-    /// Magnitude of the noise at each frequency: the mean of what the quietest windows have. Digital silence, as a
-    /// program adds or a microphone begins with, tells nothing of it.
+    /// Magnitude of the noise at each frequency: the mean of what the quietest windows have. Digital silence that a
+    /// program adds, or a microphone begins with, tells nothing of it; where it is the most of a recording, the noise is
+    /// left out there, and there is none.
     pub(crate) fn noise(&self) -> Vec<f32> {
         let bins = self.frames.first().map_or(0, Vec::len);
         let all = self.frames.iter().flatten();
         let least = SILENCE * all.fold(0.0_f32, |most, x| most.max(*x));
         let is_heard = |frame: &&Vec<f32>| frame.iter().any(|x| *x > 0.0);
-        let heard: Vec<_> = self.frames.iter().filter(is_heard).collect();
+        let mut heard: Vec<_> = self.frames.iter().filter(is_heard).collect();
+        if 2 * heard.len() < self.frames.len() {
+            heard = self.frames.iter().collect();
+        }
         let of = |bin: usize| {
             let mut at: Vec<f32> = heard.iter().map(|frame| frame[bin]).collect();
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
             let place = (QUIET_SHARE * at.len() as f64) as usize;
-            if at.is_empty() {
-                return f32::MIN_POSITIVE;
-            }
             let (_, quiet, _) = at.select_nth_unstable_by(place, f32::total_cmp);
             #[allow(clippy::cast_possible_truncation)]
             let noise = MEAN_OVER_QUIET as f32 * *quiet;
