@@ -123,21 +123,24 @@ mod tests {
     }
 
     /// Just above such a step a smooth curve through wide windows misses the root by many of its errors. Of 20 intervals of
-    /// 95 % fewer than 15 hold it for one set of keys in 3,000.
+    /// 95 % fewer than 15 hold it for one set of keys in 3,000. Nearer to the step 11 hold it, and none without narrower windows.
     #[test]
     fn a_step_beside_the_root_does_not_move_it() {
-        let (root, mut held) = (1.383, 0);
-        for key in 0..20 {
-            let mut known = Known {
-                curve: stepped,
-                key,
-            };
-            let Ok(solved) = solve(&mut known, Axis::new(0.2, 2.5), &goal(stepped(root), 0.002));
-            let found = solved.findings.into_iter().find_map(|(_, found)| found);
-            let last = *found.expect("a root").rounds.last().expect("a round");
-            held += u32::from(last.lo < Some(root) && Some(root) < last.hi);
+        for (root, least) in [(1.383, 15), (1.353, 6)] {
+            let mut held = 0;
+            for key in 0..20 {
+                let mut known = Known {
+                    curve: stepped,
+                    key,
+                };
+                let goal = goal(stepped(root), 0.005);
+                let Ok(solved) = solve(&mut known, Axis::new(0.2, 2.5), &goal);
+                let found = solved.findings.into_iter().find_map(|(_, found)| found);
+                let last = *found.expect("a root").rounds.last().expect("a round");
+                held += u32::from(last.lo < Some(root) && Some(root) < last.hi);
+            }
+            assert!(held >= least, "{root}: {held} of 20");
         }
-        assert!(held >= 15, "{held} of 20");
     }
 
     /// A curve that crosses the target between all of the thirteen values of the scan.
