@@ -192,7 +192,7 @@ impl Observations {
             }
             Content::Film(drops) => {
                 let law = plan.points[0].engine.law();
-                let fitted = drops.fitted((&scene, law), folder, &mut taken.films);
+                let fitted = drops.fitted(&scene, law, folder, &mut taken.films);
                 let filmed = fitted.map_err(|problems| place.problems(problems))?;
                 let remarks = filmed.remarks.iter();
                 self.film_remarks

@@ -61,7 +61,7 @@ impl Signals {
 /// is complete or ignored, and other files are renamed into place.
 pub(crate) fn listen(
     mut on_first: impl FnMut() + Send + 'static,
-) -> io::Result<&'static AtomicBool> {
+) -> Result<&'static AtomicBool, Failure> {
     let mut signals = Signals::new(SAME_SIGNAL);
     on_signals(move || match signals.number(Instant::now()) {
         None => {}
@@ -80,7 +80,7 @@ pub(crate) fn listen(
 pub(crate) fn listen_twice(
     mut on_first: impl FnMut() + Send + 'static,
     mut on_second: impl FnMut() + Send + 'static,
-) -> io::Result<(&'static AtomicBool, &'static AtomicBool)> {
+) -> Result<(&'static AtomicBool, &'static AtomicBool), Failure> {
     let mut signals = Signals::new(SAME_SIGNAL_AT_MOTORS);
     on_signals(move || match signals.number(Instant::now()) {
         None => {}
@@ -100,15 +100,18 @@ pub(crate) fn listen_twice(
 /// Lets the first signal end the process at once, with what a failure prints: for work that nothing is lost of.
 pub(crate) fn end_at_once(console: &Console) -> Result<(), Failure> {
     let console = *console;
-    let end = move || process::exit(i32::from(Failure::Interrupted.report(&console)));
-    on_signals(end)
+    on_signals(move || process::exit(i32::from(Failure::Interrupted.report(&console))))
+}
+
+/// Calls `handle` at each signal, on a thread of its own.
+fn on_signals(handle: impl FnMut() + Send + 'static) -> Result<(), Failure> {
+    set_handler(handle)
         .context("cannot listen for signals")
         .map_err(Failure::Runtime)
 }
 
-/// Calls `handle` at each signal, on a thread of its own.
 #[cfg(unix)]
-fn on_signals(mut handle: impl FnMut() + Send + 'static) -> io::Result<()> {
+fn set_handler(mut handle: impl FnMut() + Send + 'static) -> io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     let hang_up = (!ignores_hang_up()).then_some(SIGHUP);
     let signals = [SIGINT, SIGTERM].into_iter().chain(hang_up);
@@ -121,7 +124,7 @@ fn on_signals(mut handle: impl FnMut() + Send + 'static) -> io::Result<()> {
 }
 
 #[cfg(not(unix))]
-fn on_signals(handle: impl FnMut() + Send + 'static) -> io::Result<()> {
+fn set_handler(handle: impl FnMut() + Send + 'static) -> io::Result<()> {
     ctrlc::set_handler(handle).map_err(io::Error::other)
 }
 

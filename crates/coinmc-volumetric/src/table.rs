@@ -105,12 +105,12 @@ impl<L> Table<L> {
 
     /// How long a coin in this state need not be looked at, s.
     fn safe_for_s(&self, state: &State, flies: bool) -> f64 {
-        let surface = &self.scene.surface;
-        let fastest = self.fastest_m_s(state);
         if self.tilt.is_some() && flies {
             // the edge counts where it lands
             return f64::INFINITY;
         }
+        let surface = &self.scene.surface;
+        let fastest = self.fastest_m_s(state);
         let keeps_velocity = surface.friction() == 0.0 && surface.roughness().is_none();
         if self.tilt.is_none() && (flies || keeps_velocity) {
             // straight on, and no faster

@@ -98,7 +98,8 @@ impl Drops {
     /// What is wrong with each file, or why there is no fit.
     pub(crate) fn fitted(
         &self,
-        (scene, law): (&Scene, &str),
+        scene: &Scene,
+        law: &str,
         folder: &Path,
         seen: &mut Vec<PathBuf>,
     ) -> Result<Filmed, Vec<String>> {

@@ -4,7 +4,7 @@ use crate::exit::Failure;
 use crate::interrupt;
 use crate::output::{Console, Format};
 use crate::terminal::progress::Progress;
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::Args;
 use coinmc::config::{self, Override};
 use coinmc_atlas::AtlasError;
@@ -183,9 +183,7 @@ pub(super) fn ask<T, E: Into<Unanswered>>(
     let progress = Progress::new(*console.stderr(), args.quiet);
     let told = progress.clone();
     let cancel =
-        interrupt::listen(move || told.note("stopping; press Ctrl-C again to stop at once"))
-            .context("cannot listen for signals")
-            .map_err(Failure::Runtime)?;
+        interrupt::listen(move || told.note("stopping; press Ctrl-C again to stop at once"))?;
     let made = AtomicU64::new(0);
     let answer = question(&Workers {
         threads: args.threads.and_then(|n| NonZeroUsize::new(n.into())),

@@ -11,7 +11,7 @@ use crate::terminal::progress::{Progress, with_prefix};
 use crate::terminal::summary::{FAIR, markdown, summary};
 use crate::terminal::{compact, count, duration, grouped, tosses};
 use crate::time_limit::{self, TimeLimit};
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::Args;
 use coinmc::OnDemand;
 use coinmc::config::{self, Override};
@@ -116,9 +116,7 @@ impl Run {
         }
         let told = progress.clone();
         let cancel =
-            interrupt::listen(move || told.note("stopping; press Ctrl-C again to stop at once"))
-                .context("cannot listen for signals")
-                .map_err(Failure::Runtime)?;
+            interrupt::listen(move || told.note("stopping; press Ctrl-C again to stop at once"))?;
         let limit = self.max_time.map(|time| TimeLimit::start(time, cancel));
         let limit = limit.unwrap_or_default();
         let report = coinmc::run::run(

@@ -201,19 +201,25 @@ impl fmt::Display for Launch {
 mod tests {
     use super::*;
     use crate::Template;
+    use coinmc::plan::Plan;
     use coinmc_core::{Marginal, Preset, Spin};
 
     const HAND: &str = "coin.ratio = 1\nsurface.material = 'wood'\nlaunch.preset = 'hand'\n\
                         engine.volumetric = {}";
 
+    /// The plan of a config, the config spelled out, and its launch.
+    fn spelled(text: &str) -> (Plan, Template, Launch) {
+        let template = Template::new("inline", text, &[]);
+        let (plan, spelled) = template.spelled_out().expect("a plan");
+        let launch = Launch::of(&plan.resolved_toml).expect("a launch");
+        (plan, spelled, launch)
+    }
+
     #[test]
     fn a_launch_is_read_and_written() {
         for preset in Preset::ALL {
             let text = HAND.replace("hand", preset.name());
-            let (plan, spelled) = Template::new("inline", text, &[])
-                .spelled_out()
-                .expect("a plan");
-            let launch = Launch::of(&plan.resolved_toml).expect("a launch");
+            let (plan, spelled, launch) = spelled(&text);
             let again = spelled
                 .plan(&[("launch", launch.to_string())])
                 .expect("a plan");
@@ -224,10 +230,7 @@ mod tests {
 
     #[test]
     fn numbers_are_found_by_their_keys() {
-        let (plan, _) = Template::new("inline", HAND, &[])
-            .spelled_out()
-            .expect("a plan");
-        let mut launch = Launch::of(&plan.resolved_toml).expect("a launch");
+        let (_, _, mut launch) = spelled(HAND);
         let mut number = |key: &str| launch.number(key).copied();
         assert_eq!(number("launch.height_m"), Some(1.0));
         assert_eq!(number("launch.velocity_m_s.z.normal.mean"), Some(2.4));
@@ -247,10 +250,7 @@ mod tests {
             "'hand'",
             "'hand'\nlaunch.height_m.uniform = { from = 1, to = 2 }",
         );
-        let (plan, spelled) = Template::new("inline", text, &[])
-            .spelled_out()
-            .expect("a plan");
-        let mut launch = Launch::of(&plan.resolved_toml).expect("a launch");
+        let (_, spelled, mut launch) = spelled(&text);
         assert!(launch.spread(1.5));
         let plan = spelled
             .plan(&[("launch", launch.to_string())])
@@ -285,10 +285,7 @@ mod tests {
             "launch.preset = 'hand'",
             "launch = { height_m = 1, velocity_m_s = [0, 0, 0], orientation = 'isotropic', spin.isotropic_sd_rad_s = 8 }",
         );
-        let (plan, spelled) = Template::new("inline", text, &[])
-            .spelled_out()
-            .expect("a plan");
-        let mut launch = Launch::of(&plan.resolved_toml).expect("a launch");
+        let (_, spelled, mut launch) = spelled(&text);
         let (mean, sd) = (0.0, 12.0);
         let cases = [
             (1.5, Marginal::Normal { mean, sd }),

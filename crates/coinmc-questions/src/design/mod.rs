@@ -285,6 +285,18 @@ mod tests {
     use super::*;
     use std::sync::atomic::AtomicBool;
 
+    /// A massive coin without anything to it.
+    fn plain() -> PrintedCoin {
+        PrintedCoin {
+            diameter_m: 0.024,
+            edge: coinmc_solid::Edge::Sharp,
+            draft_deg: None,
+            marks: false,
+            density_kg_m3: 1240.0,
+            infill: None,
+        }
+    }
+
     /// Its title and its sheet say of a coin that it is fair only if that is what it is for.
     #[test]
     fn a_coin_is_called_fair_if_a_third_was_asked_for() {
@@ -294,16 +306,8 @@ mod tests {
             (1.0 / 3.0, "A fair coin with three sides"),
             (0.5, "A coin with three sides"),
         ] {
-            let coin = PrintedCoin {
-                diameter_m: 0.024,
-                edge: coinmc_solid::Edge::Sharp,
-                draft_deg: None,
-                marks: false,
-                density_kg_m3: 1240.0,
-                infill: None,
-            };
             let question = Design {
-                coin,
+                coin: plain(),
                 target,
                 half_width: 0.05,
             };
@@ -318,26 +322,15 @@ mod tests {
             assert_eq!(designed.title(), title);
             let sheet = designed.sheet();
             assert!(sheet.contains(title), "{sheet}");
-            assert_eq!(
-                sheet.contains("fair coin has"),
-                target < 0.4 && sheet.contains("coin has")
-            );
+            assert_eq!(sheet.contains("fair coin"), target < 0.4, "{sheet}");
         }
     }
 
     /// Before a toss is made, and by the reason that it is.
     #[test]
     fn a_config_that_sweeps_another_number_is_refused_as_such() {
-        let coin = PrintedCoin {
-            diameter_m: 0.024,
-            edge: coinmc_solid::Edge::Sharp,
-            draft_deg: None,
-            marks: false,
-            density_kg_m3: 1240.0,
-            infill: None,
-        };
         let question = Design {
-            coin,
+            coin: plain(),
             target: 1.0 / 3.0,
             half_width: 0.5,
         };

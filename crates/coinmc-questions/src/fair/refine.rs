@@ -84,8 +84,8 @@ struct Refinement<'a> {
     counts: Vec<Counts>,
     tosses: u64,
     undecided: u64,
-    /// How far from the middle of the window counts are used, in half widths.
-    reach: f64,
+    /// Whether the counts have shown steps of the curve.
+    has_steps: bool,
 }
 
 /// Finds the root between `from` and `to` (in u) with the tosses from number `first` on.
@@ -108,7 +108,7 @@ pub(super) fn refine<T: Tosses>(
         counts: vec![],
         tosses: 0,
         undecided: 0,
-        reach: USED,
+        has_steps: false,
     };
     let mut rounds = vec![];
     let mut slope = (f64::NAN, f64::NAN);
@@ -173,7 +173,7 @@ impl Refinement<'_> {
         let left = self.goal.tosses.saturating_sub(self.tosses);
         let grown = (GROWTH - 1) * self.tosses;
         let target = log_odds(self.goal.target);
-        let found = Fit::new(&self.counts, self.window, self.reach)
+        let found = Fit::new(&self.counts, self.window, self.reach())
             .and_then(|fit| Some((fit, self.within_reach(fit.root(target)?)?)));
         let Some((fit, root)) = found else {
             return (round, Some(grown.min(left)).filter(|&n| n > 0), None);
@@ -186,7 +186,7 @@ impl Refinement<'_> {
         // undecided tosses could all show the face or none
         let allowance = self.undecided as f64 / self.tosses as f64 / variance;
         let reach = 2.0 * self.bracket.half;
-        let excess = fit.excess(&self.counts, self.reach);
+        let excess = fit.excess(&self.counts, self.reach());
         let ends = fit.interval(root, target, self.goal.z * excess, allowance, reach);
         round.value = value;
         [round.lo, round.hi] = ends.map(|end| end.map(|u| self.axis.value(u)));
@@ -201,10 +201,10 @@ impl Refinement<'_> {
         let few = next == left && next < self.tosses;
         if excess > 1.0 {
             self.narrow_window(root, rate);
-        } else if !few && self.reach == USED {
-            self.move_window(root, error, rate);
-        } else if !few {
+        } else if !few && self.has_steps {
             self.window.middle = root;
+        } else if !few {
+            self.move_window(root, error, rate);
         }
         let next = (!enough && next > 0).then_some(next);
         (round, next, Some(slope))
@@ -217,11 +217,11 @@ impl Refinement<'_> {
         const SPARE: f64 = 1.06;
         let Goal { target, z, .. } = *self.goal;
         let least = (z / (slope * self.goal.half_width)).powi(2) * target * (1.0 - target);
-        let used = self.window.uses(&self.counts, self.reach);
-        let tosses = if self.reach == USED {
-            self.tosses
-        } else {
+        let tosses = if self.has_steps {
+            let used = self.window.uses(&self.counts, self.reach());
             used.map(|counts| counts.tosses).sum()
+        } else {
+            self.tosses
         };
         let tosses = tosses as f64;
         let mut all = SPARE * least;
@@ -232,6 +232,11 @@ impl Refinement<'_> {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let wanted = (all - tosses) as u64;
         wanted
+    }
+
+    /// How far from the middle of the window counts are used, in half widths.
+    fn reach(&self) -> f64 {
+        if self.has_steps { OWN } else { USED }
     }
 
     /// A root that lies within the bracket or close to it.
@@ -252,12 +257,9 @@ impl Refinement<'_> {
         let middle = self.bracket.middle + (root - self.bracket.middle).clamp(-inside, inside);
         self.window = Window { middle, half };
     }
-}
-
-impl Refinement<'_> {
     /// Puts a window a quarter as wide around the root, which uses counts in it and close to it.
     fn narrow_window(&mut self, root: f64, rate: f64) {
-        self.reach = OWN;
+        self.has_steps = true;
         let least = NARROWEST * self.goal.half_width / rate;
         let half = (0.25 * self.window.half).max(least);
         self.window = Window { middle: root, half };

@@ -6,7 +6,7 @@ use crate::exit::{self, Failure, Outcome};
 use crate::interrupt;
 use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::grouped;
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::Args;
 use coinmc::config::{self, Override};
 use coinmc_core::Face;
@@ -203,9 +203,7 @@ impl Session {
         let (cancel, stop) = interrupt::listen_twice(
             || output::note("finishing the open throw; Ctrl-C again sends Stop to the robot"),
             || output::note("sending Stop to the robot; Ctrl-C again ends this program at once"),
-        )
-        .context("cannot listen for signals")
-        .map_err(Failure::Runtime)?;
+        )?;
         let report = run_session(
             experiment,
             directory,

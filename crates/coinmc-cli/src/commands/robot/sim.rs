@@ -3,7 +3,6 @@
 use crate::exit::{Failure, Outcome};
 use crate::interrupt;
 use crate::output;
-use anyhow::Context;
 use clap::Args;
 use coinmc::config::{self, Override};
 use coinmc_robot::Experiment;
@@ -90,9 +89,7 @@ impl Sim {
     pub(super) fn execute(&self) -> Result<Outcome, Failure> {
         let plan = config::load(&self.config, &self.overrides)?;
         let experiment = Experiment::new(plan).map_err(|e| Failure::Input(e.into()))?;
-        let cancel = interrupt::listen(|| {})
-            .context("cannot listen for signals")
-            .map_err(Failure::Runtime)?;
+        let cancel = interrupt::listen(|| {})?;
         let (sender, commands) = mpsc::channel();
         thread::spawn(move || read_commands(&sender));
         let options = SimOptions {

@@ -8,7 +8,7 @@ use crate::interrupt;
 use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::progress::Progress;
 use crate::terminal::tosses;
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::Args;
 use coinmc::config::Override;
 use coinmc_recording::NewFile;
@@ -104,9 +104,7 @@ impl MapOf {
         let file = NewFile::begin(&self.out)?;
         let progress = Progress::new(*console.stderr(), self.quiet);
         let told = progress.clone();
-        let cancel = interrupt::listen(move || told.note("stopping; Ctrl-C again stops at once"))
-            .context("cannot listen for signals")
-            .map_err(Failure::Runtime)?;
+        let cancel = interrupt::listen(move || told.note("stopping; Ctrl-C again stops at once"))?;
         let sides = [x, y].map(|Over(quantity, from, to, pixels)| (quantity, from, to, pixels));
         let pixels = x.3.saturating_mul(y.3) as u64;
         let made = Map::toss(&plan, self.point, self.toss, sides, |done| {

@@ -11,7 +11,7 @@ use crate::exit::{Failure, Outcome};
 use crate::interrupt;
 use crate::output::{Console, Format};
 use crate::terminal::progress::Progress;
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::{ArgGroup, Args, Subcommand};
 use coinmc::config::{self, Override};
 use coinmc::plan::Plan;
@@ -181,9 +181,7 @@ impl Trace {
         let files = Files::begin(&self.outs, self.max_traces(&plan))?;
         let for_handler = progress.clone();
         let cancel =
-            interrupt::listen(move || for_handler.note("stopping; Ctrl-C again stops at once"))
-                .context("cannot listen for signals")
-                .map_err(Failure::Runtime)?;
+            interrupt::listen(move || for_handler.note("stopping; Ctrl-C again stops at once"))?;
         let selected = select::select(self, &plan, cancel, &progress);
         progress.finish();
         let mut selected = selected?;

@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::contact::Usage;
+use crate::laws::Moreau;
+use crate::model::Model;
 use crate::place::Place;
 use crate::settings::{Decision, Settings};
 use crate::toss::tests::{generic_scene, model_of, stops_plainly};
@@ -28,6 +30,29 @@ pub(crate) fn rolls_plainly(dynamics: &Dynamics, speed: f64, pull: f64) -> (f64,
     stops_plainly(slowing, speed)
 }
 
+/// Where a coin is that has rolled straight to its end from there, the time by the clock of its toss, and the kinetic
+/// energy that it is left with. Its face is decided.
+fn rolled_to_rest(model: &Model<Moreau>, speed: f64, mut place: Place) -> (Place, f64, f64) {
+    const BEGUN: f64 = 1.5;
+    let dynamics = &model.dynamics;
+    let mut solver = model.contact_solver(Usage {
+        time: BEGUN,
+        ..Usage::default()
+    });
+    let state = rolls(dynamics, speed);
+    let (mut motion, mut spin) = line_motion(dynamics, &state);
+    let mut adapter = ObserverAdapter {
+        observer: &mut Recorder::default(),
+        place: &mut place,
+        heads_up: true,
+        units: &model.units,
+    };
+    let exit = solver.roll_to_rest(&state, &mut motion, &mut spin, &mut adapter);
+    assert_eq!(exit, Exit::Decided(Decided::Side));
+    let left = motion.kinetic(&dynamics.body, &spin);
+    (place, solver.usage.time - BEGUN, left)
+}
+
 /// Drag alone stops no coin in any time. One on an endless table is left where its face is decided, on a table with an
 /// edge where it will be at last: v/b farther.
 #[test]
@@ -42,21 +67,10 @@ fn a_coin_that_drag_alone_slows_down_is_where_it_is_decided() {
             })
         });
         let model = model_of(&scene, &Settings::default());
-        let dynamics = &model.dynamics;
-        let mut solver = model.contact_solver(Usage::default());
-        let state = rolls(dynamics, 0.4);
-        let (mut motion, mut spin) = line_motion(dynamics, &state);
-        let mut place = Place::origin([1.0, 0.0]);
-        let mut adapter = ObserverAdapter {
-            observer: &mut Recorder::default(),
-            place: &mut place,
-            heads_up: true,
-            units: &model.units,
-        };
-        let exit = solver.roll_to_rest(&state, &mut motion, &mut spin, &mut adapter);
-        assert_eq!(exit, Exit::Decided(Decided::Side));
-        let way = place.way_from(&Place::origin([1.0, 0.0]));
-        let expected = RollingStop::new(dynamics, 0.4).distance();
+        let before = Place::origin([1.0, 0.0]);
+        let (place, ..) = rolled_to_rest(&model, 0.4, before);
+        let way = place.way_from(&before);
+        let expected = RollingStop::new(&model.dynamics, 0.4).distance();
         let went = (way[0] * way[0] + way[1] * way[1]).sqrt();
         let due = if moves { expected } else { 0.0 };
         assert!(
@@ -73,29 +87,15 @@ fn straight_rolling_ends_where_friction_and_drag_end_it() {
     let model = model_of(&generic_scene(|plane| plane), &Settings::default());
     let dynamics = &model.dynamics;
     for speed in [0.4, -0.9] {
-        let mut solver = model.contact_solver(Usage {
-            time: 1.5,
-            ..Usage::default()
-        });
-        let state = rolls(dynamics, speed);
-        let (mut motion, mut spin) = line_motion(dynamics, &state);
-        let mut place = Place::at([0.2, -0.1], [0.6, 0.8]);
-        let before = place;
-        let mut adapter = ObserverAdapter {
-            observer: &mut Recorder::default(),
-            place: &mut place,
-            heads_up: true,
-            units: &model.units,
-        };
-        let exit = solver.roll_to_rest(&state, &mut motion, &mut spin, &mut adapter);
-        assert_eq!(exit, Exit::Decided(Decided::Side));
+        let before = Place::at([0.2, -0.1], [0.6, 0.8]);
+        let (place, took, left) = rolled_to_rest(&model, speed, before);
         let (way, time) = rolls_plainly(dynamics, speed.abs(), 0.0);
         let [x, y] = before.in_frame(place.way_from(&before));
         assert!(x.abs() < 1e-12 && (y / way.copysign(speed) - 1.0).abs() < 1e-4);
-        for took in [place.time, solver.usage.time - 1.5] {
+        for took in [place.time, took] {
             assert!((took / time - 1.0).abs() < 1e-4, "{took} {time}");
         }
-        assert_eq!(motion.kinetic(&dynamics.body, &spin), 0.0);
+        assert_eq!(left, 0.0);
     }
 }
 
